@@ -1,0 +1,53 @@
+# SPDX-License-Identifier: Apache-2.0
+# Everything that is done with this checkout. `make help` lists it.
+
+SHELL := /bin/bash
+.DEFAULT_GOAL := help
+
+BIN  := .venv/bin
+JOBS ?= 2
+# more options for pytest, such as PYTEST_ARGS='-k axil -x'
+PYTEST_ARGS ?=
+# more options for `relnav landing`, such as LANDING_ARGS='--frames 5 --backend icarus'
+LANDING_ARGS ?=
+
+.PHONY: help setup sim test waves synth timing lint format clean distclean
+
+help: ## this list
+	@awk -F ':.*## ' '/^[a-z%<>-]+:.*## / { printf "  make %-14s %s\n", $$1, $$2 }' $(MAKEFILE_LIST)
+
+setup: ## install what is missing: .venv, and Debian packages where that is possible
+	@scripts/setup.sh
+
+sim: setup ## fly the 25-frame landing through the RTL and write the report (LANDING_ARGS=...)
+	@$(BIN)/relnav landing $(LANDING_ARGS)
+
+test: setup ## the whole regression on Icarus and Verilator (JOBS=2, PYTEST_ARGS=...)
+	@$(BIN)/python -m pytest -n $(JOBS) $(PYTEST_ARGS)
+
+sim-%: setup ## the testbenches of one module or folder of tb/, e.g. sim-centring, sim-gram
+	@folders="$$(find tb -type d -name '$*')"; \
+	if [ -z "$$folders" ]; then echo "make: no folder of tb/ is called $*" >&2; exit 2; fi; \
+	$(BIN)/python -m pytest $(PYTEST_ARGS) $$folders
+
+waves: setup ## open GTKWave on the last run of oltae_top (without a screen: write the FST)
+	@sim/waves.sh
+
+synth: setup ## area on Xilinx 7 with Yosys, into syn/results.json and the README
+	@$(BIN)/python syn/synth.py
+
+timing: setup ## place and route on ECP5-85k with nextpnr (slow), into syn/results.json and the README
+	@$(BIN)/python syn/timing.py
+
+lint: setup ## ruff, mypy, verible, Verilator on every module alone, Icarus, Yosys, shellcheck
+	@scripts/lint.sh
+
+format: setup ## format the Python files
+	@$(BIN)/ruff format . && $(BIN)/ruff check --fix .
+
+clean: ## remove what was built; .venv stays
+	rm -rf build out .pytest_cache .mypy_cache .ruff_cache
+	find sim sw syn tb scripts -name __pycache__ -prune -exec rm -rf {} +
+
+distclean: clean ## remove .venv too
+	rm -rf .venv sw/*.egg-info

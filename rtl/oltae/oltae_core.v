@@ -1,0 +1,256 @@
+// SPDX-License-Identifier: Apache-2.0
+// OLTAE core: beats of points in, results out, with the state machine of the paper's Fig. 6 around them.
+//
+//   beats -> gram_array -> moment_stream (centring, butterfly, normaliser) -> solve_engine -> result words
+//   IDLE -> LOAD (first beat) -> COMPUTE (last beat) -> DONE (all results) -> IDLE (acknowledge) or LOAD (next frame)
+//   An error, the watchdog or a soft reset leads back to IDLE from anywhere.
+//
+// Latency in clocks from the last accepted beat: docs/oltae.md, measured by the cycle counters here.
+`include "relnav_words.vh"
+`resetall
+`default_nettype none
+module oltae_core #(
+    parameter WEIGHTED = 1
+) (
+    input  wire        clk,
+    input  wire        rst,
+    input  wire        soft_reset,
+    input  wire        acknowledge,
+    // configuration, stable while busy
+    input  wire        config_forbid_turns,
+    input  wire [ 7:0] config_frac,
+    input  wire [31:0] config_variance,
+    // frame_loader
+    output wire        accept,
+    input  wire        clear,
+    input  wire        weighted,
+    input  wire        beat_valid,
+    output wire        beat_ready,
+    input  wire [63:0] beat_data,
+    input  wire [ 1:0] beat_index,
+    input  wire [15:0] beat_weight,
+    input  wire        beat_last,
+    input  wire        frame_start,
+    input  wire        frame_end,
+    input  wire        frame_dropped,
+    // results
+    output wire        write_valid,
+    output wire [ 5:0] write_index,
+    output wire [31:0] write_data,
+    output wire        q_commit,
+    output wire        pose_commit,
+    output wire        all_commit,
+    // status
+    output wire [ 2:0] state_code,
+    output wire        busy,
+    output reg         q_ready,
+    output reg         pose_ready,
+    output reg         all_ready,
+    output reg  [15:0] points,
+    output reg  [31:0] weight,
+    output reg  [ 1:0] turn,
+    output reg  [15:0] cycles_q,
+    output reg  [15:0] cycles_pose,
+    output reg  [15:0] cycles_all,
+    output wire        rank_deficient,
+    output wire        ill_conditioned,
+    output wire        saturated,
+    output wire        watchdog
+);
+  localparam [2:0] IDLE = 3'd0, LOAD = 3'd1, COMPUTE = 3'd2, DONE = 3'd3;
+  localparam WATCHDOG_BITS = 11;  // 2048 clocks of COMPUTE: the longest program takes a quarter
+
+  // ------------------------------------------------------------------ state machine
+  reg [2:0] state;
+  reg [15:0] cycles;
+  wire chosen, engine_rank_deficient, engine_ill_conditioned, engine_saturated;
+  wire q_done, pose_done, all_done;
+  wire [1:0] engine_turn;
+  wire computing = state == COMPUTE;
+
+  assign watchdog        = computing & cycles[WATCHDOG_BITS];
+  assign rank_deficient  = computing & chosen & engine_rank_deficient;
+  assign ill_conditioned = computing & chosen & engine_ill_conditioned;
+  assign saturated       = pose_commit & engine_saturated;
+  assign q_commit        = computing & q_done;
+  assign pose_commit     = computing & pose_done;
+  assign all_commit      = computing & all_done;
+  assign state_code      = state;
+  assign busy            = state == LOAD | computing;
+  assign accept          = ~busy;
+
+  always @(posedge clk) begin
+    case (state)
+      IDLE: if (frame_start) state <= LOAD;
+      LOAD: if (frame_end) state <= COMPUTE;
+            else if (frame_dropped) state <= IDLE;
+      COMPUTE: if (all_done) state <= DONE;
+      DONE: if (frame_start) state <= LOAD;
+            else if (acknowledge) state <= IDLE;
+      default: state <= IDLE;
+    endcase
+    if (soft_reset | rank_deficient | watchdog | rst) state <= IDLE;
+  end
+
+  always @(posedge clk) begin
+    cycles <= frame_end ? 16'd1 : cycles + 16'd1;
+    if (frame_start) {q_ready, pose_ready, all_ready} <= 3'd0;
+    if (q_commit) begin
+      q_ready  <= 1'b1;
+      points   <= point_count;
+      weight   <= {{(32 - `RELNAV_W(WEIGHTED)) {1'b0}}, weight_sum};
+      turn     <= engine_turn;
+      cycles_q <= cycles;
+    end
+    if (pose_commit) {pose_ready, cycles_pose} <= {1'b1, cycles};
+    if (all_commit) {all_ready, cycles_all} <= {1'b1, cycles};
+    if (rst) begin
+      {q_ready, pose_ready, all_ready} <= 3'd0;
+      {points, weight, turn} <= 50'd0;
+      {cycles_q, cycles_pose, cycles_all} <= 48'd0;
+    end
+  end
+
+  // ------------------------------------------------------------------ moments
+  wire pair_valid, pair_last;
+  wire [1:0] pair_slot;
+  wire [2:0] pair_lane;
+  wire signed [`RELNAV_M2(WEIGHTED)-1:0] pair_moment;
+  wire signed [`RELNAV_M1(WEIGHTED)-1:0] pair_first_i, pair_first_j;
+  wire [`RELNAV_W(WEIGHTED)-1:0] weight_sum;
+  wire [`RELNAV_COUNT-1:0] point_count;
+  wire [6*`RELNAV_M1(WEIGHTED)-1:0] first_moments;
+  wire flush = clear | soft_reset;
+
+  gram_array #(
+      .WEIGHTED(WEIGHTED)
+  ) gram (
+      .clk(clk),
+      .rst(rst),
+      .clear(flush),
+      .weighted(weighted),
+      .beat_valid(beat_valid),
+      .beat_ready(beat_ready),
+      .beat_data(beat_data),
+      .beat_index(beat_index),
+      .beat_weight(beat_weight),
+      .beat_last(beat_last),
+      .redrain(1'b0),
+      .pair_valid(pair_valid),
+      .pair_slot(pair_slot),
+      .pair_lane(pair_lane),
+      .pair_last(pair_last),
+      .pair_moment(pair_moment),
+      .pair_first_i(pair_first_i),
+      .pair_first_j(pair_first_j),
+      .weight_sum(weight_sum),
+      .point_count(point_count),
+      .first_moments(first_moments)
+  );
+
+  // Exponents of the units: m has FRAC binary places, products of two twice as many; lane 2 (B_ii) is wanted doubled.
+  wire signed [11:0] first_scale = -{{4{config_frac[7]}}, config_frac};
+  wire signed [11:0] pair_scale = (first_scale <<< 1) + (pair_lane == 3'd2 ? 12'sd1 : 12'sd0);
+
+  wire value_valid;
+  wire [4:0] value_address;
+  wire signed [`RELNAV_M1(WEIGHTED)-1:0] value;
+  wire signed [11:0] value_scale;
+  value_feeder #(
+      .WEIGHTED(WEIGHTED)
+  ) feeder (
+      .clk(clk),
+      .rst(rst),
+      .clear(flush),
+      .pair_last(pair_last & pair_valid),
+      .weight_sum(weight_sum),
+      .point_count(point_count),
+      .first_moments(first_moments),
+      .moment_scale(first_scale),
+      .variance(config_variance),
+      .value_valid(value_valid),
+      .value_address(value_address),
+      .value(value),
+      .value_scale(value_scale)
+  );
+
+  wire item_valid, item_zero;
+  wire [5:0] item_tag;
+  wire [34:0] item_mant;
+  wire [11:0] item_exp;
+  moment_stream #(
+      .WEIGHT_SUM_BITS(`RELNAV_W(WEIGHTED)),
+      .M1_BITS(`RELNAV_M1(WEIGHTED)),
+      .M2_BITS(`RELNAV_M2(WEIGHTED)),
+      .CENTRED_BITS(`RELNAV_CENTRED(WEIGHTED)),
+      .VALUE_BITS(`RELNAV_M1(WEIGHTED)),
+      .TAG_BITS(6)
+  ) stream (
+      .clk(clk),
+      .rst(rst | flush),
+      .low(1'b0),
+      .pair_valid(pair_valid),
+      .pair_tag({1'b0, pair_slot, pair_lane}),
+      .weight_sum(weight_sum),
+      .pair_moment(pair_moment),
+      .pair_first_i(pair_first_i),
+      .pair_first_j(pair_first_j),
+      .pair_scale(pair_scale),
+      .value_valid(value_valid),
+      .value_tag({1'b1, value_address}),
+      .value(value),
+      .value_scale(value_scale),
+      .item_valid(item_valid),
+      .item_tag(item_tag),
+      .item_mant(item_mant),
+      .item_exp(item_exp),
+      .item_zero(item_zero)
+  );
+
+  // ------------------------------------------------------------------ solve
+  // lane -> place in the stream bank's block of the slot: T E B2 F H P N at 0 1 6 2 3 4 5
+  reg [2:0] kind;
+  always @*
+    case (item_tag[2:0])
+      3'd0: kind = 3'd0;
+      3'd1: kind = 3'd1;
+      3'd2: kind = 3'd6;
+      default: kind = item_tag[2:0] - 3'd1;
+    endcase
+  wire [4:0] item_address = item_tag[5] ? item_tag[4:0] : {item_tag[4:3], kind};
+  solve_engine engine (
+      .clk(clk),
+      .rst(rst | flush),
+      .forbid_turns(config_forbid_turns),
+      .item_valid(item_valid),
+      .item_first(item_tag == 6'd0),
+      .item_address(item_address),
+      .item_value({item_zero, item_exp, item_mant}),
+      .write_valid(write_valid),
+      .write_index(write_index),
+      .write_data(write_data),
+      .q_done(q_done),
+      .pose_done(pose_done),
+      .all_done(all_done),
+      .chosen(chosen),
+      .turn(engine_turn),
+      .rank_deficient(engine_rank_deficient),
+      .ill_conditioned(engine_ill_conditioned),
+      .saturated(engine_saturated)
+  );
+
+  // synthesis translate_off
+  /* verilator lint_off UNUSEDSIGNAL */
+  reg [8*7-1:0] state_name;  // for the waves
+  /* verilator lint_on UNUSEDSIGNAL */
+  always @*
+    case (state)
+      IDLE: state_name = "IDLE";
+      LOAD: state_name = "LOAD";
+      COMPUTE: state_name = "COMPUTE";
+      DONE: state_name = "DONE";
+      default: state_name = "?";
+    endcase
+  // synthesis translate_on
+endmodule
+`resetall

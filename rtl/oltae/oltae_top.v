@@ -1,0 +1,231 @@
+// SPDX-License-Identifier: Apache-2.0
+// OLTAE: the rigid transformation b = R a + t between two sets of matched points, as an AXI core (docs/oltae.md).
+//
+//   s_axil_*  AXI4-Lite registers (registers/oltae.rdl): configuration, status, flags, results, and the push register
+//   s_axis_*  AXI4-Stream, three beats a point {b_k, a_k}, k = x y z; weighted frames put a beat with the weight in front;
+//             tlast with the last beat of a frame
+//   irq       level, on a completed frame or a raised flag, each maskable
+//
+// WEIGHTED, COVARIANCE, REAPPLY = 0 leave their hardware out (the lean build).
+`include "relnav_words.vh"
+`resetall
+`default_nettype none
+module oltae_top #(
+    parameter WEIGHTED   = 1,
+    parameter COVARIANCE = 1,
+    parameter REAPPLY    = 1
+) (
+    input  wire        clk,
+    input  wire        rst,
+    // AXI4-Lite
+    input  wire [11:0] s_axil_awaddr,
+    input  wire [ 2:0] s_axil_awprot,
+    input  wire        s_axil_awvalid,
+    output wire        s_axil_awready,
+    input  wire [31:0] s_axil_wdata,
+    input  wire [ 3:0] s_axil_wstrb,
+    input  wire        s_axil_wvalid,
+    output wire        s_axil_wready,
+    output wire [ 1:0] s_axil_bresp,
+    output wire        s_axil_bvalid,
+    input  wire        s_axil_bready,
+    input  wire [11:0] s_axil_araddr,
+    input  wire [ 2:0] s_axil_arprot,
+    input  wire        s_axil_arvalid,
+    output wire        s_axil_arready,
+    output wire [31:0] s_axil_rdata,
+    output wire [ 1:0] s_axil_rresp,
+    output wire        s_axil_rvalid,
+    input  wire        s_axil_rready,
+    // AXI4-Stream
+    input  wire [63:0] s_axis_tdata,
+    input  wire        s_axis_tvalid,
+    output wire        s_axis_tready,
+    input  wire        s_axis_tlast,
+    // interrupt
+    output wire        irq
+);
+  wire soft_reset, acknowledge;
+  wire config_weighted, config_forbid_turns, config_reapply, config_covariance;
+  wire [7:0] config_frac;
+  wire [31:0] config_variance;
+  wire push_valid, push_last, push_ready, push_open;
+  wire [63:0] push_data;
+  wire busy, q_ready, pose_ready, all_ready;
+  wire [2:0] state;
+  wire frame_start, frame_end, frame_dropped, few_points, zero_weight, bad_tlast, too_long;
+  wire rank_deficient, ill_conditioned, saturated, watchdog;
+  wire q_commit, pose_commit, all_commit;
+  wire [15:0] points, cycles_q, cycles_pose, cycles_all;
+  wire [31:0] weight;
+  wire [1:0] turn;
+  wire result_valid, result_wait;
+  wire [5:0] result_index;
+  wire [31:0] result_data;
+
+  oltae_registers #(
+      .WEIGHTED(WEIGHTED),
+      .COVARIANCE(COVARIANCE),
+      .REAPPLY(REAPPLY),
+      .MANTISSA(`RELNAV_MANT)
+  ) registers (
+      .clk(clk),
+      .rst(rst),
+      .s_axil_awaddr(s_axil_awaddr),
+      .s_axil_awprot(s_axil_awprot),
+      .s_axil_awvalid(s_axil_awvalid),
+      .s_axil_awready(s_axil_awready),
+      .s_axil_wdata(s_axil_wdata),
+      .s_axil_wstrb(s_axil_wstrb),
+      .s_axil_wvalid(s_axil_wvalid),
+      .s_axil_wready(s_axil_wready),
+      .s_axil_bresp(s_axil_bresp),
+      .s_axil_bvalid(s_axil_bvalid),
+      .s_axil_bready(s_axil_bready),
+      .s_axil_araddr(s_axil_araddr),
+      .s_axil_arprot(s_axil_arprot),
+      .s_axil_arvalid(s_axil_arvalid),
+      .s_axil_arready(s_axil_arready),
+      .s_axil_rdata(s_axil_rdata),
+      .s_axil_rresp(s_axil_rresp),
+      .s_axil_rvalid(s_axil_rvalid),
+      .s_axil_rready(s_axil_rready),
+      .soft_reset(soft_reset),
+      .acknowledge(acknowledge),
+      .config_weighted(config_weighted),
+      .config_forbid_turns(config_forbid_turns),
+      .config_reapply(config_reapply),
+      .config_covariance(config_covariance),
+      .config_frac(config_frac),
+      .config_variance(config_variance),
+      .push_valid(push_valid),
+      .push_data(push_data),
+      .push_last(push_last),
+      .push_ready(push_ready),
+      .push_open(push_open),
+      .busy(busy),
+      .state(state),
+      .q_ready(q_ready),
+      .pose_ready(pose_ready),
+      .all_ready(all_ready),
+      // the register file adds BUSY_WRITE and NOT_BUILT itself
+      .flag_set({1'b0, watchdog, ill_conditioned, saturated, 1'b0, bad_tlast, too_long, zero_weight, rank_deficient, few_points}),
+      .frame_start(frame_start),
+      .frame_complete(all_commit),
+      .points(points),
+      .weight(weight),
+      .turn(turn),
+      .cycles_q(cycles_q),
+      .cycles_pose(cycles_pose),
+      .cycles_all(cycles_all),
+      .result_valid(result_valid),
+      .result_index(result_index),
+      .result_wait(result_wait),
+      .result_data(result_data),
+      .irq(irq)
+  );
+
+  wire accept, clear, beat_weighted, beat_valid, beat_ready, beat_last;
+  wire [63:0] beat_data;
+  wire [1:0] beat_index;
+  wire [15:0] beat_weight;
+
+  frame_loader #(
+      .WEIGHTED(WEIGHTED)
+  ) loader (
+      .clk(clk),
+      .rst(rst),
+      .accept(accept),
+      .weighted(config_weighted),
+      .soft_reset(soft_reset),
+      .s_axis_tdata(s_axis_tdata),
+      .s_axis_tvalid(s_axis_tvalid),
+      .s_axis_tready(s_axis_tready),
+      .s_axis_tlast(s_axis_tlast),
+      .push_valid(push_valid),
+      .push_data(push_data),
+      .push_last(push_last),
+      .push_ready(push_ready),
+      .push_open(push_open),
+      .clear(clear),
+      .beat_weighted(beat_weighted),
+      .beat_valid(beat_valid),
+      .beat_ready(beat_ready),
+      .beat_data(beat_data),
+      .beat_index(beat_index),
+      .beat_weight(beat_weight),
+      .beat_last(beat_last),
+      .frame_start(frame_start),
+      .frame_end(frame_end),
+      .frame_dropped(frame_dropped),
+      .few_points(few_points),
+      .zero_weight(zero_weight),
+      .bad_tlast(bad_tlast),
+      .too_long(too_long)
+  );
+
+  wire write_valid;
+  wire [5:0] write_index;
+  wire [31:0] write_data;
+
+  oltae_core #(
+      .WEIGHTED(WEIGHTED)
+  ) core (
+      .clk(clk),
+      .rst(rst),
+      .soft_reset(soft_reset),
+      .acknowledge(acknowledge),
+      .config_forbid_turns(config_forbid_turns),
+      .config_frac(config_frac),
+      .config_variance(config_variance),
+      .accept(accept),
+      .clear(clear),
+      .weighted(beat_weighted),
+      .beat_valid(beat_valid),
+      .beat_ready(beat_ready),
+      .beat_data(beat_data),
+      .beat_index(beat_index),
+      .beat_weight(beat_weight),
+      .beat_last(beat_last),
+      .frame_start(frame_start),
+      .frame_end(frame_end),
+      .frame_dropped(frame_dropped),
+      .write_valid(write_valid),
+      .write_index(write_index),
+      .write_data(write_data),
+      .q_commit(q_commit),
+      .pose_commit(pose_commit),
+      .all_commit(all_commit),
+      .state_code(state),
+      .busy(busy),
+      .q_ready(q_ready),
+      .pose_ready(pose_ready),
+      .all_ready(all_ready),
+      .points(points),
+      .weight(weight),
+      .turn(turn),
+      .cycles_q(cycles_q),
+      .cycles_pose(cycles_pose),
+      .cycles_all(cycles_all),
+      .rank_deficient(rank_deficient),
+      .ill_conditioned(ill_conditioned),
+      .saturated(saturated),
+      .watchdog(watchdog)
+  );
+
+  result_store store (
+      .clk(clk),
+      .rst(rst),
+      .write_valid(write_valid),
+      .write_index(write_index),
+      .write_data(write_data),
+      .q_commit(q_commit),
+      .pose_commit(pose_commit),
+      .all_commit(all_commit),
+      .read_valid(result_valid),
+      .read_index(result_index),
+      .read_wait(result_wait),
+      .read_data(result_data)
+  );
+endmodule
+`resetall

@@ -1,0 +1,155 @@
+# SPDX-License-Identifier: Apache-2.0
+"""The command line. Exit codes: 0 well, 1 RTL and model differ, 2 bad input, 3 a frame has no pose."""
+
+from __future__ import annotations
+
+import argparse
+import importlib
+import json
+import math
+import os
+import sys
+from collections.abc import Sequence
+from pathlib import Path
+from typing import NoReturn
+
+from . import __version__
+from .backends import BACKENDS, solve
+from .errors import BackendError, RelnavError, one_line
+from .frames import read_frames
+from .model.raw import CoreConfig
+from .table import pose_table
+
+EXIT_BAD_INPUT = 2
+EXIT_NO_POSE = 3
+
+
+class _Parser(argparse.ArgumentParser):
+    """Errors are one line; `relnav ... --help` has the usage."""
+
+    def error(self, message: str) -> NoReturn:
+        self.exit(EXIT_BAD_INPUT, f"{self.prog}: {one_line(message)}\n")
+
+
+def main(arguments: Sequence[str] | None = None) -> int:
+    """Run one command; returns the exit code."""
+    parser = _parser()
+    options = parser.parse_args(arguments)
+    try:
+        code: int = options.run(options)
+        sys.stdout.flush()
+        return code
+    except RelnavError as error:
+        print(f"relnav: {error}", file=sys.stderr)
+        return EXIT_BAD_INPUT
+    except BrokenPipeError:  # `relnav pose ... | head`: nobody reads on, and nobody is to be told
+        os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())
+        return 0
+
+
+def pose_command(options: argparse.Namespace) -> int:
+    """Poses of a file's frames, as a table or as JSON. Prints only when all is solved."""
+    config = CoreConfig(
+        forbid_turns=options.forbid_turns,
+        reapply=options.reapply,
+        variance=_variance(options.sigma_a, options.sigma_b),
+    )
+    results = solve(read_frames(options.file), options.backend, config=config, rtl_dir=options.rtl)
+    if options.json:
+        text = json.dumps({"frames": [result.to_json() for result in results]}, allow_nan=False)
+    else:
+        text = pose_table(results)
+    print(text)
+    return EXIT_NO_POSE if any(result.failed for result in results) else 0
+
+
+def landing_command(options: argparse.Namespace) -> int:
+    """The landing of the paper, sensors to report."""
+    try:
+        run_landing = importlib.import_module("relnav.landing").run_landing
+    except ImportError as error:
+        raise BackendError(f"the landing cannot be loaded: {error}") from None
+    code: int = run_landing(
+        terrain=options.terrain,
+        frames=options.frames,
+        backend=options.backend,
+        out=options.out,
+        images=options.images,
+        rtl=options.rtl,
+    )
+    return code
+
+
+def _variance(sigma_a: float | None, sigma_b: float | None) -> float:
+    """sigma_a^2 + sigma_b^2; 0, which leaves it to the residuals, only where neither is given."""
+    if sigma_a is None and sigma_b is None:
+        return 0.0
+    variance = (sigma_a or 0.0) ** 2 + (sigma_b or 0.0) ** 2
+    if variance == 0.0:
+        raise RelnavError("--sigma-a and --sigma-b must not both be 0")
+    return variance
+
+
+def _parser() -> argparse.ArgumentParser:
+    parser = _Parser(prog="relnav", description="Relative navigation: poses from matched 3-D points.")
+    parser.add_argument("--version", action="version", version=f"relnav {__version__}")
+    commands = parser.add_subparsers(required=True, metavar="COMMAND")
+
+    pose = commands.add_parser("pose", help="pose of each frame in a CSV or .npz file")
+    pose.add_argument(
+        "file",
+        type=Path,
+        metavar="FILE",
+        help="CSV with header ax,ay,az,bx,by,bz, or .npz with a, b (n,3); both with optional w, frame",
+    )
+    pose.add_argument(
+        "--backend", choices=BACKENDS, default="fixed", help="default: %(default)s, the bit-exact model"
+    )
+    pose.add_argument(
+        "--json", action="store_true", help="one JSON object on standard output instead of a table"
+    )
+    pose.add_argument("--sigma-a", type=_sigma, metavar="S", help="standard deviation of a at unit weight")
+    pose.add_argument("--sigma-b", type=_sigma, metavar="S", help="standard deviation of b at unit weight")
+    pose.add_argument("--rtl", type=Path, metavar="DIR", help="simulate this copy of the RTL")
+    pose.add_argument(
+        "--forbid-turns", action="store_true", help="solve the points as they are, never turned first"
+    )
+    pose.add_argument("--reapply", action="store_true", help="apply Eq. 25 once more: Wahba's optimum")
+    pose.set_defaults(run=pose_command)
+
+    landing = commands.add_parser("landing", help="the paper's landing: terrain, sensors, RTL, report")
+    landing.add_argument(
+        "--terrain", type=Path, metavar="FILE", help="elevation data, .npz (default: matplotlib's)"
+    )
+    landing.add_argument(
+        "--frames", type=_count, default=25, metavar="N", help="default: %(default)s, one a second"
+    )
+    landing.add_argument("--backend", choices=BACKENDS, help="default: a simulator that is installed")
+    landing.add_argument("--out", type=Path, metavar="DIR", help="where the report goes")
+    landing.add_argument(
+        "--images",
+        choices=("camera", "bearing-angle"),
+        default="camera",
+        help="camera images, or images made of the point cloud alone (default: %(default)s)",
+    )
+    landing.add_argument("--rtl", type=Path, metavar="DIR", help="simulate this copy of the RTL")
+    landing.set_defaults(run=landing_command)
+    return parser
+
+
+def _sigma(text: str) -> float:
+    value = float(text)
+    if not (math.isfinite(value) and value >= 0.0):
+        raise argparse.ArgumentTypeError(f"{text} is not a finite number >= 0")
+    return value
+
+
+def _count(text: str) -> int:
+    value = int(text)
+    if value < 1:
+        raise argparse.ArgumentTypeError(f"{text} is not a whole number >= 1")
+    return value
+
+
+if __name__ == "__main__":
+    sys.exit(main())

@@ -1,0 +1,24 @@
+# SPDX-License-Identifier: Apache-2.0
+"""The errors a user meets: each prints as one line and makes the command line exit 2."""
+
+from __future__ import annotations
+
+
+def one_line(text: object) -> str:
+    """text with every run of white space made one blank."""
+    return " ".join(str(text).split())
+
+
+class RelnavError(Exception):
+    """Anything the user can put right."""
+
+    def __init__(self, reason: object) -> None:
+        super().__init__(one_line(reason))
+
+
+class InputError(RelnavError, ValueError):
+    """Input that no backend can take: names the file, the row and the reason."""
+
+
+class BackendError(RelnavError):
+    """A backend that cannot run: a tool or a part of the package is missing, or the simulation failed."""

@@ -1,0 +1,86 @@
+"""Microprogram of the solve engine: terms, dot products, in-order scheduling and the ROM image.
+
+One slot is one term a cycle, broadcast to the four lanes. Lane k works on turn k (0 none, 1 x, 2 y, 3 z) and, after
+the turn is chosen, on matrix row k. A dot product is a run of consecutive slots; its result can be read
+``LATENCY`` cycles after its last slot. The scheduler places dot products in the order written, each at the first
+cycle where its operands, the write port and the divider are free: the RTL has no interlock, so the schedule is the proof.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, field
+
+LATENCY = 8  # last slot -> first slot that can read the result
+RAW_LATENCY = 6  # the same for a raw result, which skips normalisation
+RECIPROCAL_LATENCY = 12  # readable dot result -> readable reciprocal
+STREAM = 32  # X addresses from here on are the moment stream's bank
+
+ALL = frozenset({0, 1, 2, 3})
+TURN = 4  # broadcast from the lane of the chosen turn
+
+# result kinds
+NORMAL, RAW, FIXED = range(3)
+# reference exponents
+OWN, REF_MOMENT, REF_CROSS, REF_QUATERNION, REF_UNIT, REF_CENTROID, REF_ROTATED, REF_FIXED = range(8)
+# register whose exponent maximum is tracked
+NO_TRACK, TRACK_QUATERNION, TRACK_CENTROID = range(3)
+# divider start
+NO_DIVIDE, DIVIDE, DIVIDE_UNTURNED, DIVIDE_TURNED = range(4)
+# result output
+NO_OUTPUT, SINGLE, TRIPLE, TRIPLE_COLUMN = range(4)
+# write
+NO_WRITE, PRIVATE, BROADCAST = range(3)
+
+
+def lanes(*members: int) -> frozenset[int]:
+    """A set of lanes."""
+    return frozenset(members)
+
+
+@dataclass(frozen=True)
+class Term:
+    """One product x*y. ``x``/``y`` addresses are XORed with the lane's number where ``*_by_lane``;
+    lanes in ``alternate`` flip address bit 0 of x, lanes in ``negate`` subtract, lanes not in ``enable`` add nothing."""
+
+    x: int
+    y: int
+    negate: frozenset[int] = frozenset()
+    enable: frozenset[int] = ALL
+    alternate: frozenset[int] = frozenset()
+    x_by_lane: bool = False
+    y_by_lane: bool = False
+
+
+@dataclass
+class Dot:
+    """A dot product: its terms and what happens with the sum."""
+
+    name: str
+    terms: list[Term]
+    kind: int = NORMAL
+    half: bool = False
+    reference: int = OWN
+    write: int = PRIVATE
+    source: int = 0
+    dest: int = 0
+    turn_dest: bool = False
+    only_turned: bool = False
+    choose_turn: bool = False
+    track: int = NO_TRACK
+    divide: int = NO_DIVIDE
+    divide_dest: int | None = None
+    output: int = NO_OUTPUT
+    output_index: int = 0
+    mark: str = ""
+    earliest: int = 0
+    cycle: int = field(default=-1)
+
+    @property
+    def latency(self) -> int:
+        """Last slot to first readable cycle."""
+        return RAW_LATENCY if self.kind == RAW else LATENCY
+
+    @property
+    def end(self) -> int:
+        """Cycle of the last slot."""
+        return self.cycle + len(self.terms) - 1

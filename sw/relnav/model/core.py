@@ -1,0 +1,92 @@
+# SPDX-License-Identifier: Apache-2.0
+"""Bit-exact model of the OLTAE core (rtl/oltae/oltae_core.v): a quantised frame in, the register words it leaves out."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+
+from relnav import words
+from relnav.model import pose_program as pose
+from relnav.model.binary32 import from_binary32
+from relnav.model.butterfly import Butterfly, role
+from relnav.model.centring import Centring
+from relnav.model.gram import GramArray
+from relnav.model.lane import LaneValue
+from relnav.model.normaliser import Normaliser
+from relnav.model.raw import CoreConfig, RawResult, results_from_words
+from relnav.model.rom import scheduled
+from relnav.model.solver import Solver
+from relnav.quantise import QuantisedFrame
+from relnav.result import FLAG_NAMES
+
+# lane of a pair -> place in its slot's block of the stream bank
+KIND_OF_LANE = (pose.KIND_T, pose.KIND_E, pose.KIND_B2, pose.KIND_F, pose.KIND_H, pose.KIND_P, pose.KIND_N)
+MAX_POINTS = (1 << words.COUNT) - 1
+
+
+def flag(name: str) -> int:
+    """Bit of a flag."""
+    return 1 << FLAG_NAMES.index(name)
+
+
+class OltaeCore:
+    """One core of the full or the lean build; frames are independent of one another."""
+
+    def __init__(self, *, weighted: bool = True) -> None:
+        self.weighted = weighted
+        self.words = words.build(weighted)
+        self.program = scheduled()
+
+    def items(self, frame: QuantisedFrame, config: CoreConfig) -> Iterator[tuple[int, LaneValue]]:
+        """(stream address, value) in the order of the moment stream."""
+        gram = GramArray(self.weighted)
+        gram.add(frame.a, frame.b, frame.w if self.weighted else None)
+        centring, butterfly, normaliser = Centring(self.words), Butterfly(self.words), Normaliser()
+        for pair in gram.drain():
+            centred = centring.run(gram.weight_sum, pair.moment, pair.first_i, pair.first_j)
+            for tag, value in butterfly.push(role(pair.lane), centred, (pair.slot, pair.lane)):
+                slot, lane = tag  # type: ignore[misc]
+                scale = -2 * frame.frac + (lane == 2)
+                yield 8 * slot + KIND_OF_LANE[lane], normaliser.run(value, False, scale)
+        first = [m + (gram.weight_sum << 15) for m in gram.first_moments]
+        yield pose.ITEM_W, normaliser.run(gram.weight_sum)
+        for axis in range(3):
+            yield 8 * axis + pose.KIND_MA, normaliser.run(first[2 * axis], False, -frame.frac)
+        for axis in range(3):
+            yield pose.ITEM_MB + axis, normaliser.run(first[2 * axis + 1], False, -frame.frac)
+        yield pose.ITEM_COUNT, normaliser.run(gram.point_count)
+        mantissa, exponent = from_binary32(config.variance_word(frame.weight_scale))
+        yield pose.ITEM_VARIANCE, normaliser.run(mantissa, False, exponent)
+
+    def refused(self, frame: QuantisedFrame) -> int:
+        """Flags of a frame that is not solved, 0 for one that is."""
+        if frame.n > MAX_POINTS:
+            return flag("TOO_LONG")
+        flags = flag("FEW_POINTS") if frame.n < 3 else 0
+        if frame.w is not None and self.weighted and not frame.w.any():
+            flags |= flag("ZERO_WEIGHT")
+        return flags
+
+    def run(self, frame: QuantisedFrame, config: CoreConfig | None = None) -> RawResult:
+        """Register words after the frame; a failed frame has only its flags.
+
+        Raises ValueError for integers that do not fit the ports.
+        """
+        config = config or CoreConfig()
+        flags = self.refused(frame)
+        if flags:
+            return RawResult(flags=flags)
+        solver = Solver(forbid_turns=config.forbid_turns)
+        for address, value in self.items(frame, config):
+            solver.load(address, value)
+        solver.run(self.program)
+        if solver.rank_deficient:
+            return RawResult(flags=flag("RANK_DEFICIENT"))
+        if solver.ill_conditioned:
+            flags |= flag("ILL_CONDITIONED")
+        if solver.saturated:
+            flags |= flag("Q_SATURATED")
+        found = solver.words()
+        results = results_from_words([found.get(index, 0) for index in range(64)])
+        total = int(frame.w.sum()) if frame.w is not None and self.weighted else frame.n
+        return RawResult(points=frame.n, weight=total, turn=solver.turn, flags=flags, **results)  # type: ignore[arg-type]

@@ -1,0 +1,96 @@
+"""Bit-exact model of one float dot lane (rtl/arith/dot_lane.v).
+
+A lane value is ``(mantissa, exponent)`` = mantissa * 2**exponent with a signed 35-bit mantissa; zero is ``(0, 0)``.
+A dot product is accumulated in fixed point whose unit is set by a reference exponent: the products are exact, each
+is aligned with one floor, the sum is exact, and one more floor makes the result's mantissa.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+from relnav import words
+
+LaneValue = tuple[int, int]
+
+MANT = words.MANT
+DROP = words.LANE_DROP
+ACC = words.LANE_ACC
+RAW = words.LANE_RAW
+ZERO: LaneValue = (0, 0)
+ONE: LaneValue = (1 << (MANT - 2), -(MANT - 2))
+
+
+class LaneOverflow(ArithmeticError):
+    """The microprogram broke its promise about a reference exponent; the RTL would be wrong too."""
+
+
+def normalise(value: int, exponent: int, mant_bits: int = MANT) -> LaneValue:
+    """Floor ``value * 2**exponent`` to a normalised lane value (two top mantissa bits differ)."""
+    if value == 0:
+        return ZERO
+    magnitude_bits = (value if value >= 0 else ~value).bit_length()
+    shift = magnitude_bits - (mant_bits - 1)
+    mantissa = value >> shift if shift >= 0 else value << -shift
+    return mantissa, exponent + shift
+
+
+@dataclass
+class DotLane:
+    """Accumulator of one lane. ``first`` clears it; the reference is the given one or the first enabled term's."""
+
+    acc: int = 0
+    reference: int | None = None
+
+    def clear(self, reference: int | None) -> None:
+        """Begin a dot product; ``reference`` None means: that of the first enabled, non-zero term."""
+        self.acc = 0
+        self.reference = reference
+
+    def term(self, x: LaneValue, y: LaneValue, negate: bool) -> None:
+        """acc +/-= floor(x*y / 2**(reference + DROP))."""
+        if x[0] == 0 or y[0] == 0:
+            return
+        exponent = x[1] + y[1]
+        if self.reference is None:
+            self.reference = exponent
+        shift = self.reference - exponent
+        if shift < 0:
+            raise LaneOverflow(f"term exponent {exponent} above the reference {self.reference}")
+        aligned = (x[0] * y[0]) >> DROP >> min(shift, 63)
+        self.acc += -aligned if negate else aligned
+        if not -(1 << (ACC - 1)) <= self.acc < 1 << (ACC - 1):
+            raise LaneOverflow("accumulator overflow")
+
+    def result(self, half: bool = False) -> LaneValue:
+        """Normalised sum; ``half`` divides by two."""
+        if self.reference is None:
+            return ZERO
+        mantissa, exponent = normalise(self.acc, self.reference + DROP)
+        return (mantissa, exponent - half) if mantissa else ZERO
+
+    def raw(self) -> LaneValue:
+        """Sum in the fixed format ``acc >> LANE_RAW``: keeps the exponent common to a block."""
+        if self.reference is None:
+            return ZERO
+        mantissa = self.acc >> RAW
+        if not -(1 << (MANT - 1)) <= mantissa < 1 << (MANT - 1):
+            raise LaneOverflow("raw result too wide")
+        return mantissa, self.reference + DROP + RAW
+
+    saturated: bool = False
+
+    def overflows(self, x: LaneValue, y: LaneValue) -> bool:
+        """Fixed-point output only: a term above the accumulator saturates."""
+        if x[0] == 0 or y[0] == 0 or self.reference is None or x[1] + y[1] <= self.reference:
+            return False
+        self.saturated = True
+        self.acc = -(1 << (ACC - 1)) if (x[0] < 0) != (y[0] < 0) else (1 << (ACC - 1)) - 1
+        return True
+
+    def fixed(self) -> int:
+        """Q15.16 of an accumulator whose unit is 2**-17: half up, saturated to 32 bits."""
+        value = (self.acc + 1) >> 1
+        clipped = max(-(1 << 31), min((1 << 31) - 1, value))
+        self.saturated |= clipped != value
+        return clipped

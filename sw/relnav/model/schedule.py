@@ -1,0 +1,122 @@
+"""In-order list scheduler of the solve microprogram: gives every dot product its cycle, or proves that it has one."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable
+
+from relnav.model.assembler import (
+    DIVIDE_TURNED,
+    FIXED,
+    NO_DIVIDE,
+    NO_OUTPUT,
+    NO_WRITE,
+    RECIPROCAL_LATENCY,
+    REF_CENTROID,
+    REF_QUATERNION,
+    REF_ROTATED,
+    SINGLE,
+    TRACK_CENTROID,
+    TRACK_QUATERNION,
+    Dot,
+)
+
+DIVIDER_BUSY = 12  # cycles from one start to the next
+# references that a tracked scale enters
+SCALED = {
+    TRACK_QUATERNION: (REF_QUATERNION, REF_ROTATED),
+    TRACK_CENTROID: (REF_CENTROID, REF_ROTATED),
+}
+FIXED_STORE, FLOAT_STORE = 6, 10  # last slot -> cycle of the (first) result memory write
+
+
+def addresses(address: int, by_lane: bool, enabled: Iterable[int]) -> set[int]:
+    """Registers that the enabled lanes read."""
+    return {address ^ lane for lane in enabled} if by_lane else {address}
+
+
+def reads(dot: Dot) -> list[set[int]]:
+    """Registers each slot reads, X and Y together."""
+    found = []
+    for term in dot.terms:
+        x = addresses(term.x, term.x_by_lane, term.enable)
+        if term.alternate:
+            x |= {a ^ 1 for a in x}
+        found.append(x | addresses(term.y, term.y_by_lane, term.enable))
+    return found
+
+
+def writes(dot: Dot) -> set[int]:
+    """Registers the dot product may write (without its reciprocal)."""
+    if dot.write == NO_WRITE:
+        return set()
+    return {dot.dest, dot.dest | 8} if dot.turn_dest else {dot.dest}
+
+
+def stores(dot: Dot, cycle: int) -> set[int]:
+    """Cycles in which the result memory is written, if the dot product starts at ``cycle``."""
+    end = cycle + len(dot.terms) - 1
+    if dot.kind == FIXED:
+        return {end + FIXED_STORE}
+    if dot.output == NO_OUTPUT:
+        return set()
+    return {end + FLOAT_STORE + k for k in range(1 if dot.output == SINGLE else 3)}
+
+
+class Scheduler:
+    """Places dot products; ``ready`` maps a register to the first cycle in which it can be read."""
+
+    def __init__(self, ready: dict[int, int], references: dict[int, int]) -> None:
+        self.ready = dict(ready)
+        self.references = dict(references)
+        self.next_slot = 0
+        self.busy_writes: set[int] = set()  # cycles (in units of readable-at) in which a result is written
+        self.divider_free = 0
+        self.output_free = 0
+        self.busy_stores: set[int] = set()  # cycles in which the result memory is written
+
+    def fits(self, dot: Dot, cycle: int) -> bool:
+        """Whether the dot product can start at ``cycle``."""
+        if cycle < self.references.get(dot.reference, 0):
+            return False
+        if any(self.ready.get(a, 0) > cycle + slot for slot, read in enumerate(reads(dot)) for a in read):
+            return False
+        done = cycle + len(dot.terms) - 1 + dot.latency
+        if dot.write != NO_WRITE and done in self.busy_writes:
+            return False
+        if dot.divide != NO_DIVIDE and (
+            (done < self.divider_free and dot.divide != DIVIDE_TURNED) or done + RECIPROCAL_LATENCY in self.busy_writes
+        ):
+            return False
+        if stores(dot, cycle) & self.busy_stores:
+            return False
+        return not (dot.output != NO_OUTPUT and done < self.output_free)
+
+    def place(self, dot: Dot) -> None:
+        """Give ``dot`` its cycle."""
+        cycle = max(self.next_slot, dot.earliest)
+        while not self.fits(dot, cycle):
+            cycle += 1
+        dot.cycle = cycle
+        self.next_slot = dot.end + 1
+        done = dot.end + dot.latency
+        if dot.write != NO_WRITE:
+            self.busy_writes.add(done)
+        for register in writes(dot):
+            self.ready[register] = done
+        if dot.divide != NO_DIVIDE:
+            self.divider_free = done + DIVIDER_BUSY
+            self.busy_writes.add(done + RECIPROCAL_LATENCY)
+            assert dot.divide_dest is not None
+            self.ready[dot.divide_dest] = done + RECIPROCAL_LATENCY
+        for reference in SCALED.get(dot.track, ()):
+            self.references[reference] = max(self.references.get(reference, 0), done - 1)
+        self.busy_stores |= stores(dot, dot.cycle)
+        if dot.output != NO_OUTPUT:
+            self.output_free = done + (1 if dot.output == SINGLE else 3)
+
+    def run(self, dots: Iterable[Dot]) -> list[Dot]:
+        """Place all; returns them in order."""
+        placed = list(dots)
+        for dot in placed:
+            self.place(dot)
+        return placed

@@ -1,0 +1,137 @@
+"""Bit-exact model of the solve engine (rtl/oltae/solve_engine.v): four dot lanes, the divider, the microprogram."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable
+from dataclasses import dataclass, field
+
+from relnav import words
+from relnav.model import assembler as asm
+from relnav.model import pose_program as pose
+from relnav.model.binary32 import to_binary32
+from relnav.model.lane import ONE, ZERO, DotLane, LaneValue
+from relnav.model.reciprocal import reciprocal
+
+LANES = 4
+EXPONENT_FLOOR = -(1 << (words.EXPO - 1))
+MANT_POINT = words.MANT - 2  # ONE's exponent is -MANT_POINT
+
+
+@dataclass
+class Solver:
+    """Register files, scale registers and outputs of the solve engine for one frame."""
+
+    forbid_turns: bool = False
+    registers: list[list[LaneValue]] = field(default_factory=lambda: [[ZERO] * 64 for _ in range(LANES)])
+    turn: int = 0
+    moment_scale: int = EXPONENT_FLOOR
+    cross_scale: int = EXPONENT_FLOOR
+    quaternion_scale: int = EXPONENT_FLOOR
+    centroid_scale: int = EXPONENT_FLOOR
+    determinant_acc: int = 0
+    outputs: dict[int, LaneValue] = field(default_factory=dict)
+    fixed_outputs: dict[int, int] = field(default_factory=dict)
+    saturated: bool = False
+
+    def __post_init__(self) -> None:
+        for bank in self.registers:
+            bank[pose.ONE] = ONE
+
+    def load(self, address: int, value: LaneValue) -> None:
+        """A stream item arrives: broadcast to every lane's stream bank."""
+        for bank in self.registers:
+            bank[asm.STREAM + address] = value
+        kind = address & 7
+        if address < 24 and value[0]:
+            if kind == pose.KIND_T:
+                self.moment_scale = max(self.moment_scale, value[1])
+            if kind == pose.KIND_N:
+                self.cross_scale = max(self.cross_scale, value[1])
+
+    def reference(self, code: int, lane: int) -> int | None:
+        """Reference exponent of a dot product; None is the first term's own."""
+        return {
+            asm.OWN: None,
+            asm.REF_MOMENT: self.moment_scale - MANT_POINT + 1,
+            asm.REF_CROSS: (self.moment_scale if lane else self.cross_scale) - MANT_POINT,
+            asm.REF_QUATERNION: 2 * self.quaternion_scale,
+            asm.REF_UNIT: -63,
+            asm.REF_CENTROID: self.centroid_scale - MANT_POINT + 4,
+            asm.REF_ROTATED: 2 * self.quaternion_scale + self.centroid_scale + 35,
+            asm.REF_FIXED: -17 - words.LANE_DROP,
+        }[code]
+
+    def execute(self, dot: asm.Dot) -> None:
+        """One dot product in all lanes."""
+        sums = [DotLane() for _ in range(LANES)]
+        for number, lane in enumerate(sums):
+            lane.clear(self.reference(dot.reference, number))
+            for term in dot.terms:
+                if number not in term.enable:
+                    continue
+                x_address = term.x ^ (number if term.x_by_lane else 0) ^ (number in term.alternate)
+                y_address = term.y ^ (number if term.y_by_lane else 0)
+                x, y = self.registers[number][x_address], self.registers[number][y_address]
+                if dot.kind == asm.FIXED and lane.overflows(x, y):
+                    continue
+                lane.term(x, y, number in term.negate)
+        if dot.choose_turn:
+            best = max(range(LANES), key=lambda k: (sums[k].acc, -k))
+            self.turn = 0 if self.forbid_turns else best
+            self.determinant_acc = sums[self.turn].acc
+        self.finish(dot, sums)
+
+    def finish(self, dot: asm.Dot, sums: list[DotLane]) -> None:
+        """Write, track, divide, output."""
+        if dot.kind == asm.FIXED:
+            self.fixed_outputs[dot.output_index] = sums[0].fixed()
+            self.saturated |= sums[0].saturated
+            return
+        values = [s.raw() if dot.kind == asm.RAW else s.result(dot.half) for s in sums]
+        broadcast = values[self.turn if dot.source == asm.TURN else dot.source]
+        suppressed = dot.only_turned and self.turn == 0
+        dest = dot.dest | (8 if dot.turn_dest and self.turn == 0 else 0)
+        if not suppressed:
+            for number in range(LANES):
+                if dot.write == asm.PRIVATE:
+                    self.registers[number][dest] = values[number]
+                elif dot.write == asm.BROADCAST:
+                    self.registers[number][dest] = broadcast
+            if dot.track == asm.TRACK_QUATERNION and dest & ~3 == pose.P and broadcast[0]:
+                self.quaternion_scale = max(self.quaternion_scale, broadcast[1])
+            if dot.track == asm.TRACK_CENTROID and broadcast[0]:
+                self.centroid_scale = max(self.centroid_scale, broadcast[1])
+        if dot.divide == asm.DIVIDE or (
+            dot.divide in (asm.DIVIDE_UNTURNED, asm.DIVIDE_TURNED)
+            and (dot.divide == asm.DIVIDE_TURNED) == (self.turn != 0)
+        ):
+            assert dot.divide_dest is not None
+            for bank in self.registers:
+                bank[dot.divide_dest] = reciprocal(broadcast)
+        if dot.output == asm.SINGLE:
+            self.outputs[dot.output_index] = values[0]
+        elif dot.output in (asm.TRIPLE, asm.TRIPLE_COLUMN):
+            stride = 3 if dot.output == asm.TRIPLE_COLUMN else 1
+            for row in (1, 2, 3):
+                self.outputs[dot.output_index + stride * (row - 1)] = values[row]
+
+    @property
+    def rank_deficient(self) -> bool:
+        """The chosen determinant is no more than rounding noise."""
+        return self.determinant_acc < 1 << words.RANK_BITS
+
+    @property
+    def ill_conditioned(self) -> bool:
+        """The chosen determinant keeps too few significant bits."""
+        return not self.rank_deficient and self.determinant_acc < 1 << words.ILL_BITS
+
+    def words(self) -> dict[int, int]:
+        """Result memory: index -> 32-bit word."""
+        found = {index: to_binary32(value) for index, value in self.outputs.items()}
+        found |= {index: value % (1 << 32) for index, value in self.fixed_outputs.items()}
+        return found
+
+    def run(self, program: Iterable[asm.Dot]) -> None:
+        """The program in issue order; the schedule proves that the pipelined engine does the same."""
+        for dot in program:
+            self.execute(dot)

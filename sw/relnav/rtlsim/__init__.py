@@ -1,0 +1,140 @@
+# SPDX-License-Identifier: Apache-2.0
+"""Frames through the real RTL: builds oltae_top under a simulator and runs the driver on it.
+
+It needs the checkout that this package lies in (sim/, rtl/), cocotb and a simulator.
+"""
+
+from __future__ import annotations
+
+import contextlib
+import importlib
+import io
+import logging
+import os
+import re
+import shutil
+import sys
+import tempfile
+from collections.abc import Iterator, Sequence
+from pathlib import Path
+from typing import Any
+
+from relnav.errors import BackendError
+from relnav.model.raw import CoreConfig, RawResult
+from relnav.quantise import QuantisedFrame
+
+from . import job
+
+CHECKOUT = Path(__file__).resolve().parents[3]
+BENCH = "relnav.rtlsim.bench"
+TOP = "oltae_harness"
+# how Icarus and Verilator begin an error: FILE:LINE: ..., %Error[-CODE]: FILE:LINE:COLUMN: ...
+_MESSAGE = re.compile(
+    r"^(?:%Error(?:-\w+)?: )?(?P<file>/?[^\s:]+\.vh?):(?P<line>\d+):(?:\d+:)? ?(?:error: )?(?P<text>.*)$"
+)
+
+
+def run_frames(
+    frames: Sequence[QuantisedFrame],
+    simulator: str,
+    rtl_dir: str | Path | None = None,
+    config: CoreConfig | None = None,
+    *,
+    waves: Path | None = None,
+    feed: str = "stream",
+    timeout: float = 3600.0,
+) -> list[RawResult]:
+    """The register words that oltae_top leaves for each frame; they run back to back, without a reset.
+
+    simulator: "icarus" or "verilator". rtl_dir: another copy of rtl/. waves: where to leave the waveform
+    (default: the environment's RELNAV_WAVES; the suffix becomes .vcd where FST cannot be written).
+    feed: "stream" or "registers". timeout: seconds of simulation.
+    Raises BackendError, in one line: simulator missing, RTL that does not compile, a core that gives no result.
+    """
+    if not frames:
+        return []
+    runner = _runner()
+    rtl = CHECKOUT / "rtl" if rtl_dir is None else Path(rtl_dir)
+    sources = [*_sources(runner, rtl), CHECKOUT / "sim" / f"{TOP}.v"]
+    if waves is None and os.environ.get("RELNAV_WAVES"):
+        waves = Path(os.environ["RELNAV_WAVES"])
+    folder = Path(tempfile.mkdtemp(prefix="relnav-"))
+    keep = False
+    try:
+        job.write(folder / job.JOB, frames, config or CoreConfig(), feed)
+        with _quiet():
+            runner.build_and_test(
+                TOP,
+                sources,
+                BENCH,
+                simulator=simulator,
+                waves=waves or False,
+                includes=[rtl / "include"],
+                env={"RELNAV_JOB": str(folder)},
+                folder=folder / "run",
+                timeout=timeout,
+                public=False,
+            )
+        return job.read_results(folder / job.RESULTS)
+    except runner.SimulatorMissing as error:
+        raise BackendError(error) from None
+    except runner.SimulationFailed as error:
+        if reason := job.read_failure(folder / job.RESULTS):
+            raise BackendError(f"{simulator}: {reason}") from None
+        if found := _compiler_message(str(error), rtl):
+            raise BackendError(f"{simulator} cannot compile the RTL: {found}") from None
+        keep = True  # the log is all there is to go by
+        first = str(error).partition("\n")[0]
+        raise BackendError(f"{first} (log: {folder / 'run' / 'sim.log'})") from None
+    except ValueError as error:
+        raise BackendError(f"{simulator}: {error}") from None
+    finally:
+        if not keep:
+            shutil.rmtree(folder, ignore_errors=True)
+
+
+def _runner() -> Any:
+    """sim.runner of this checkout."""
+    if not (CHECKOUT / "sim" / f"{TOP}.v").is_file():
+        raise BackendError(f"the RTL is simulated from a checkout of the repository, and {CHECKOUT} is none")
+    if str(CHECKOUT) not in sys.path:
+        sys.path.append(str(CHECKOUT))
+    try:
+        return importlib.import_module("sim.runner")
+    except ImportError as error:
+        raise BackendError(f"the simulation needs more packages (make setup): {error}") from None
+
+
+def _sources(runner: Any, rtl: Path) -> list[Path]:
+    """Every Verilog file of a copy of rtl/."""
+    if not rtl.is_dir():
+        raise BackendError(f"{rtl}: no such RTL directory")
+    sources: list[Path] = runner.sources(rtl_dir=rtl)
+    if not any(file.name == "oltae_top.v" for file in sources):
+        raise BackendError(f"{rtl}: holds no oltae_top.v; a copy of rtl/ with its folders is needed")
+    return sources
+
+
+@contextlib.contextmanager
+def _quiet() -> Iterator[None]:
+    """Nothing of the simulation on the terminal: its output is in the log."""
+    before = logging.root.manager.disable
+    logging.disable(logging.WARNING)
+    try:
+        with contextlib.redirect_stdout(io.StringIO()):
+            yield
+    finally:
+        logging.disable(before)
+
+
+def _compiler_message(text: str, rtl: Path) -> str | None:
+    """The first error of a compiler's log, the file named as seen from the RTL directory."""
+    if "building" not in text.partition("\n")[0]:
+        return None
+    found = [match for line in text.splitlines() if (match := _MESSAGE.match(line.strip()))]
+    if not found:
+        return next((line for line in text.splitlines()[1:] if "rror" in line), None)
+    first = found[0]
+    file = Path(first["file"]).resolve()
+    shown = rtl / file.relative_to(rtl.resolve()) if file.is_relative_to(rtl.resolve()) else file
+    return f"{shown}:{first['line']}: {first['text']}"
