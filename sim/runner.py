@@ -66,6 +66,11 @@ class SimulatorMissing(RuntimeError):
 class SimulationFailed(AssertionError):
     """A build failed, the simulator died or a cocotb test failed; the message holds the end of the log."""
 
+    def __init__(self, message: str, build_log: Path | None = None) -> None:
+        super().__init__(message)
+        self.build_log = build_log
+        """The compiler's messages, where it was the build that failed."""
+
 
 @dataclass(frozen=True)
 class SimulationRun:
@@ -141,6 +146,8 @@ class _Verilator(cocotb_runner.Verilator):
         if self.trace_option:
             verilate.insert(1, self.trace_option)
         make[-1] = f"VM_TRACE={int(self.trace_option is not None)}"
+        # PyPI's wheel leaves this empty, and a model large enough for precompiled headers does not compile
+        make.append("CFG_CXXFLAGS_PCH_I=-include")
         return [verilate, make]
 
 
@@ -285,7 +292,7 @@ class _Build:
                 log_file=log,
             )
         except (RuntimeError, SystemExit) as error:
-            raise SimulationFailed(f"building {self.top} failed ({error})\n{_tail(log)}") from None
+            raise SimulationFailed(f"building {self.top} failed ({error})\n{_tail(log)}", log) from None
         (folder / "stamp").write_text(stamp)
 
     def run(

@@ -27,7 +27,9 @@ module dot_lane #(
     input  wire               enable,
     input  wire               first,
     // slot's reference, cycle 2
+    /* verilator lint_off SYMRSVDWORD */
     input  wire signed [13:0] reference,
+    /* verilator lint_on SYMRSVDWORD */
     input  wire               own_reference,
     // slot's result format, cycle 6
     input  wire               half,
@@ -83,14 +85,16 @@ module dot_lane #(
   reg negate_1, negate_2, negate_3, negate_4;
   reg started;
   reg signed [13:0] reference_3;
-  reg [5:0] shift;
+  reg [5:0] closeness;  // complement of the alignment shift
   reg above_3;
 
   wire take_own = own_reference & live_2 & (first_2 | ~started);
   wire signed [13:0] reference_now =
       take_own ? {exponent[12], exponent} : first_2 & ~own_reference ? reference : reference_3;
-  // 15 bits hold the difference of a 14-bit and a 13-bit number.
-  wire signed [14:0] distance = {reference_now[13], reference_now} - {{2{exponent[12]}}, exponent};
+  // Complement of the distance, 15 bits: the difference of a 14-bit and a 13-bit number. As a sum with the registered
+  // exponent first, multiplexer, complement and adder are one LUT a bit.
+  wire signed [14:0] nearness = {{2{exponent[12]}}, exponent} + {~reference_now[13], ~reference_now};
+  wire far = ~&nearness[14:6] | ~|nearness[5:4];  // 48 or more, or negative: only sign bits are left, as after 47
 
   always @(posedge clk) begin
     x_exponent <= x[46:35];
@@ -106,31 +110,41 @@ module dot_lane #(
 
     reference_3 <= reference_now;
     started    <= live_2 | (started & ~first_2);
-    shift      <= |distance[14:6] ? 6'd63 : distance[5:0];
-    above_3    <= live_2 & distance[14];
+    if (far) closeness <= ~6'd47;
+    else closeness <= nearness[5:0];
+    above_3    <= live_2 & ~nearness[14];
     live_3     <= live_2;
     first_3    <= first_2;
     negate_3   <= negate_2;
   end
 
   // ---- cycle 3: align; 4: accumulate (48 bits: 8 full-scale terms of 45 bits)
+  // A negated term is its complement with a carry: -a = ~a + 1.
   reg signed [ALIGNED-1:0] aligned;
   reg signed [47:0] acc;
-  reg signed [13:0] reference_4, reference_5, reference_6;
+  reg [11:0] reference_4, reference_5;
   reg above_4, above_5;
-  wire signed [ALIGNED-1:0] kept = product[69:DROP];
-  wire signed [ALIGNED-1:0] moved = kept >>> shift;  // a wire of its own: an unsigned neighbour would make the shift logical
-  wire signed [47:0] addend = {{(48 - ALIGNED) {aligned[ALIGNED-1]}}, aligned};
-  wire signed [47:0] base = first_4 ? 48'sd0 : acc;
+  wire [ALIGNED-1:0] moved;
+  aligner align (
+      .value(product[69:DROP]),
+      .invert(negate_3),
+      .shift(~closeness),
+      .aligned(moved)
+  );
+  wire [47:0] addend = {{(48 - ALIGNED) {aligned[ALIGNED-1]}}, aligned};
+  wire [47:0] base = acc & {48{~first_4}};
+  // The carry enters through a bit below the sum. The addend stands first: its register is the carry chain's data.
+  wire [48:0] next = {addend, negate_4} + {base, negate_4};
 
   always @(posedge clk) begin
-    aligned     <= live_3 ? moved : {ALIGNED{1'b0}};
+    if (live_3) aligned <= moved;
+    else aligned <= {ALIGNED{1'b0}};
+    negate_4    <= negate_3 & live_3;
     first_4     <= first_3;
-    negate_4    <= negate_3;
     above_4     <= above_3;
-    reference_4 <= reference_3;
+    reference_4 <= reference_3[11:0];
 
-    acc         <= negate_4 ? base - addend : base + addend;
+    acc         <= next[48:1];
     above_5     <= above_4 | (above_5 & ~first_4);
     reference_5 <= reference_4;
   end
@@ -138,36 +152,35 @@ module dot_lane #(
 
   // Raw results keep the exponent common to a block (docs/decisions/raw-results.md); the microprogram keeps them in 35 bits.
   localparam RAW = `RELNAV_LANE_RAW;
-  wire signed [13:0] raw_exponent = reference_5 + $signed(14'd`RELNAV_LANE_DROP + 14'd`RELNAV_LANE_RAW);
-  assign raw = {acc[RAW+:35] == 35'd0, raw_exponent[11:0], acc[RAW+:35]};
+  localparam [11:0] RAW_UNIT = DROP + RAW;
+  wire [11:0] raw_exponent = reference_5 + RAW_UNIT;
+  assign raw = {acc[RAW+:35] == 35'd0, raw_exponent, acc[RAW+:35]};
   assign overflow = above_5;
 
-  // ---- cycle 5: redundant sign bits of the sum
-  wire [5:0] redundant;
-  sign_count counter (
-      .value(acc),
-      .count(redundant)
+  // ---- cycles 5 and 6: top 35 bits and their exponent: reference + DROP + 13 - half - left = raw + 4 - half - left.
+  // Exponents of stored values fit 12 bits: docs/decisions/exponent-range.md.
+  wire [34:0] top;
+  wire [5:0] left;
+  sum_normaliser normalise (
+      .clk(clk),
+      .sum(acc),
+      .mantissa(top),
+      .left(left)
   );
-  reg signed [47:0] acc_6;
-  reg [5:0] left;
-  always @(posedge clk) begin
-    acc_6       <= acc;
-    left        <= redundant;
-    reference_6 <= reference_5;
-  end
-
-  // ---- cycle 6: top 35 bits. Exponents of stored values fit 12 bits: docs/decisions/exponent-range.md.
-  wire signed [47:0] shifted = acc_6 <<< left;
-  wire signed [13:0] result_exponent = reference_6 + $signed(14'd`RELNAV_LANE_DROP + 14'd13 - {13'd0, half}) - $signed({8'd0, left});
+  reg [11:0] raw_exponent_6;
+  wire [3:0] fours = left[5:2] - 4'd1;
+  wire [11:0] less = {{6{~|left[5:2]}}, fours, left[1:0]};
+  wire [12:0] result_exponent = {raw_exponent_6, ~half} + {~less, ~half};
   reg [34:0] mantissa;
   reg [11:0] mantissa_exponent;
   always @(posedge clk) begin
-    mantissa          <= shifted[47:13];
-    mantissa_exponent <= result_exponent[11:0];
+    raw_exponent_6    <= raw_exponent;
+    mantissa          <= top;
+    mantissa_exponent <= result_exponent[12:1];
   end
-  wire zero = mantissa == 35'd0;
+  wire zero = ~|mantissa[34:33];  // the two differ in a normalised mantissa, and -1 becomes -2^34
   assign result = {zero, mantissa_exponent, mantissa};
 
-  wire unused = &{1'b0, result_exponent[13:12], raw_exponent[13:12], shifted[12:0], product[DROP-1:0]};
+  wire unused = &{1'b0, result_exponent[0], next[0], product[DROP-1:0]};
 endmodule
 `resetall

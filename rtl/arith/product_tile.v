@@ -6,6 +6,7 @@
 //
 // cycle | 0 operands      | 1 x_r, y_r | 2 partial products | 3 product
 // Latency: product is valid 3 clocks after the operands are presented. No reset: a pipeline of data.
+// Each partial sum is one product plus the part of the previous sum above its low 17 bits: the DSP48E1's own adder.
 `resetall
 `default_nettype none
 module product_tile (
@@ -15,26 +16,28 @@ module product_tile (
     output wire signed [69:0] product
 );
   reg signed [17:0] x_high, y_high, x_low, y_low;
-  reg signed [35:0] high_high, high_low, low_high;
-  reg [33:0] low_low;
-  reg signed [69:0] sum;
+  reg signed [35:0] low_low, high_low, low_high, high_high, top;
+  reg [33:0] bottom;
 
-  // xh yl + xl yh < 2^36 in magnitude: 37 bits signed.
-  wire signed [36:0] middle = high_low + low_high;
+  // |xh yl| + |xl yh| + xl yl / 2^17 < 2^35 + 2^17: 37 bits signed.
+  wire signed [36:0] low_carry = {{18{low_low[35]}}, low_low[35:17]};
+  wire signed [36:0] middle_1 = high_low + low_carry;
+  wire signed [36:0] middle = low_high + middle_1;
+  wire signed [35:0] middle_carry = {{16{middle[36]}}, middle[36:17]};
 
   always @(posedge clk) begin
     x_high    <= x[34:17];
     x_low     <= {1'b0, x[16:0]};
     y_high    <= y[34:17];
     y_low     <= {1'b0, y[16:0]};
-    high_high <= x_high * y_high;
+    low_low   <= x_low * y_low;
     high_low  <= x_high * y_low;
     low_high  <= x_low * y_high;
-    low_low   <= x_low[16:0] * y_low[16:0];
-    // low_low < 2^34 fills the bits below high_high exactly: one adder joins the middle.
-    sum       <= $signed({high_high, low_low}) + $signed({{16{middle[36]}}, middle, 17'd0});
+    high_high <= x_high * y_high;
+    bottom    <= {middle[16:0], low_low[16:0]};
+    top       <= high_high + middle_carry;
   end
 
-  assign product = sum;
+  assign product = {top, bottom};
 endmodule
 `resetall

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Driver of the OLTAE core, for any bus that can read and write words: the simulator's, /dev/mem's, PYNQ's."""
+"""Driver of the OLTAE core, for any bus that reads and writes words: the simulator's, /dev/mem's, PYNQ's."""
 
 from __future__ import annotations
 
@@ -19,7 +19,7 @@ from .result import FAILURES
 Feed = Literal["stream", "registers"]
 
 POLLS = 10_000  # of STATUS, before a frame counts as lost; a solved frame takes about 40 on the slowest bus
-LONGEST_FRAME = 65535  # points
+ALL_FLAGS = Oltae.FLAGS.encode(**dict.fromkeys(Oltae.FLAGS.FIELDS, 1))
 FAILURE_BITS = Oltae.FLAGS.encode(**dict.fromkeys(FAILURES, 1))
 
 
@@ -99,7 +99,7 @@ class OltaeDriver:
         """Check that this is an OLTAE core of our version; raises BackendError that says what was found."""
         found = self.read(Oltae.ID)
         if found != Oltae.ID.RESET:
-            raise BackendError(f"no OLTAE core on this bus: ID reads 0x{found:08x}, not 0x{Oltae.ID.RESET:08x}")
+            raise BackendError(f"no OLTAE core here: ID reads 0x{found:08x}, not 0x{Oltae.ID.RESET:08x}")
         version, ours = self.read(Oltae.VERSION), Oltae.VERSION.RESET
         if version >> 8 != ours >> 8:  # patches keep the registers
             raise BackendError(
@@ -117,9 +117,12 @@ class OltaeDriver:
         bits = Oltae.STATUS
         return Status(
             Oltae.State(bits.STATE.get(word)),
-            *(bool(f.get(word)) for f in (bits.BUSY, bits.Q_READY, bits.POSE_READY, bits.ALL_READY)),
-            bool(bits.PUSH_READY.get(word)),
-            bits.FRAME.get(word),
+            busy=bool(bits.BUSY.get(word)),
+            q_ready=bool(bits.Q_READY.get(word)),
+            pose_ready=bool(bits.POSE_READY.get(word)),
+            all_ready=bool(bits.ALL_READY.get(word)),
+            push_ready=bool(bits.PUSH_READY.get(word)),
+            frame=bits.FRAME.get(word),
         )
 
     def configure(
@@ -151,7 +154,7 @@ class OltaeDriver:
         """The sticky FLAGS."""
         return self.read(Oltae.FLAGS)
 
-    def clear_flags(self, bits: int = Oltae.FLAGS.encode(**dict.fromkeys(Oltae.FLAGS.FIELDS, 1))) -> None:
+    def clear_flags(self, bits: int = ALL_FLAGS) -> None:
         """Clear these sticky FLAGS, all by default."""
         self.write(Oltae.FLAGS, bits)
 
@@ -170,7 +173,7 @@ class OltaeDriver:
         self.write(Oltae.CONTROL, Oltae.CONTROL.encode(ACKNOWLEDGE=1))
 
     def soft_reset(self) -> None:
-        """Drop the frame at hand; configuration, flags and results stay. The stream's sender is to be stopped first."""
+        """Drop the frame at hand; configuration, flags and results stay. Stop the stream's sender first."""
         self.write(Oltae.CONTROL, Oltae.CONTROL.encode(SOFT_RESET=1))
 
     # ------------------------------------------------------------------ frames
@@ -192,7 +195,7 @@ class OltaeDriver:
         if not status.push_ready:
             raise BackendError("the core takes no push: it is busy or a stream's frame is open")
         for number, beat in enumerate(beats, 1):
-            # No look at PUSH_READY in between: an open frame takes a beat within the three writes of the next.
+            # PUSH_READY need not be read in between: an open frame takes a beat before the next write comes.
             self.write(Oltae.DATA_A, beat & 0xFFFFFFFF)
             self.write(Oltae.DATA_B, beat >> 32)
             self.write(Oltae.PUSH, Oltae.PUSH.encode(LAST=number == len(beats)))

@@ -51,6 +51,7 @@ MANT = 35
 EXPO = 12
 LANE_DROP = 25  # low bits of a 70-bit product that lie below the accumulator's unit
 LANE_ACC = 48
+LANE_WIDE_ACC = 76  # lane 0, which drops no product bits: 6 bits of headroom for 64 full-scale terms
 LANE_RAW = 9  # low accumulator bits that a raw (not normalised) result leaves out
 RECIPROCAL_NUMERATOR = 64
 # A determinant sum below 2^RANK_BITS is rounding noise; below 2^ILL_BITS the conditioning is beyond the
@@ -81,6 +82,7 @@ WORDS = (
     Word("EXPO", "exponent of a lane float, signed", EXPO),
     Word("LANE_DROP", "low bits dropped from a lane's mantissa product", LANE_DROP),
     Word("LANE_ACC", "accumulator of a float lane", LANE_ACC),
+    Word("LANE_WIDE_ACC", "accumulator of the wide lane 0", LANE_WIDE_ACC),
     Word("LANE_RAW", "low accumulator bits that a raw result leaves out", LANE_RAW),
     Word("RANK_BITS", "determinant sums below this power of two are rounding noise", RANK_BITS),
     Word("ILL_BITS", "determinant sums below this power of two are ill conditioned", ILL_BITS),

@@ -21,13 +21,13 @@ TURN = 4  # broadcast from the lane of the chosen turn
 # result kinds
 NORMAL, RAW, FIXED = range(3)
 # reference exponents
-OWN, REF_MOMENT, REF_CROSS, REF_QUATERNION, REF_UNIT, REF_CENTROID, REF_ROTATED, REF_FIXED = range(8)
+OWN, REF_MOMENT, REF_CROSS, REF_QUATERNION, REF_UNIT, REF_CENTROID, REF_ROTATED, REF_FIXED, REF_PROBED = range(9)
 # register whose exponent maximum is tracked
 NO_TRACK, TRACK_QUATERNION, TRACK_CENTROID = range(3)
 # divider start
 NO_DIVIDE, DIVIDE, DIVIDE_UNTURNED, DIVIDE_TURNED = range(4)
 # result output
-NO_OUTPUT, SINGLE, TRIPLE, TRIPLE_COLUMN = range(4)
+NO_OUTPUT, SINGLE, TRIPLE, TRIPLE_COLUMN, PAIR, THIRD = range(6)
 # write
 NO_WRITE, PRIVATE, BROADCAST = range(3)
 
@@ -40,7 +40,8 @@ def lanes(*members: int) -> frozenset[int]:
 @dataclass(frozen=True)
 class Term:
     """One product x*y. ``x``/``y`` addresses are XORed with the lane's number where ``*_by_lane``;
-    lanes in ``alternate`` flip address bit 0 of x, lanes in ``negate`` subtract, lanes not in ``enable`` add nothing."""
+    lanes in ``alternate`` flip address bit 0 of x, lanes in ``negate`` subtract, lanes not in ``enable`` add nothing; ``only_estimated``
+    terms count only where the variance is estimated from the residual."""
 
     x: int
     y: int
@@ -49,6 +50,7 @@ class Term:
     alternate: frozenset[int] = frozenset()
     x_by_lane: bool = False
     y_by_lane: bool = False
+    only_estimated: bool = False
 
 
 @dataclass
@@ -59,6 +61,7 @@ class Dot:
     terms: list[Term]
     kind: int = NORMAL
     half: bool = False
+    clamp: bool = False
     reference: int = OWN
     write: int = PRIVATE
     source: int = 0
@@ -83,4 +86,9 @@ class Dot:
     @property
     def end(self) -> int:
         """Cycle of the last slot."""
-        return self.cycle + len(self.terms) - 1
+        return self.cycle + self.slots - 1
+
+    @property
+    def slots(self) -> int:
+        """Slots used: a probed dot product runs twice."""
+        return len(self.terms) * (2 if self.reference == REF_PROBED else 1)

@@ -30,7 +30,7 @@ RECIPROCAL_NORM = 20
 CA = 24  # [., ca1, ca2, ca3]
 CB = 28  # [., cb1, cb2, cb3]
 U = 24
-A = 16  # A_m at A + m, over M's diagonal
+A = 0  # A_m at A + m, over z
 
 ROWS = lanes(1, 2, 3)  # lane = matrix row
 

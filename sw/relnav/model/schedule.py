@@ -10,13 +10,17 @@ from relnav.model.assembler import (
     NO_DIVIDE,
     NO_OUTPUT,
     NO_WRITE,
+    PAIR,
     RECIPROCAL_LATENCY,
     REF_CENTROID,
     REF_QUATERNION,
     REF_ROTATED,
     SINGLE,
+    THIRD,
     TRACK_CENTROID,
     TRACK_QUATERNION,
+    TRIPLE,
+    TRIPLE_COLUMN,
     Dot,
 )
 
@@ -26,6 +30,8 @@ SCALED = {
     TRACK_QUATERNION: (REF_QUATERNION, REF_ROTATED),
     TRACK_CENTROID: (REF_CENTROID, REF_ROTATED),
 }
+# places of the queue that an output fills: lane 0 alone, or lanes 1 to 3
+OUTPUT_PLACES = {SINGLE: (0,), TRIPLE: (0, 1, 2), TRIPLE_COLUMN: (0, 1, 2), PAIR: (1, 2), THIRD: (2,)}
 FIXED_STORE, FLOAT_STORE = 6, 10  # last slot -> cycle of the (first) result memory write
 
 
@@ -42,7 +48,7 @@ def reads(dot: Dot) -> list[set[int]]:
         if term.alternate:
             x |= {a ^ 1 for a in x}
         found.append(x | addresses(term.y, term.y_by_lane, term.enable))
-    return found
+    return found  # a probed dot product reads them twice: ready for the first pass is ready for the second
 
 
 def writes(dot: Dot) -> set[int]:
@@ -54,12 +60,12 @@ def writes(dot: Dot) -> set[int]:
 
 def stores(dot: Dot, cycle: int) -> set[int]:
     """Cycles in which the result memory is written, if the dot product starts at ``cycle``."""
-    end = cycle + len(dot.terms) - 1
+    end = cycle + dot.slots - 1
     if dot.kind == FIXED:
         return {end + FIXED_STORE}
     if dot.output == NO_OUTPUT:
         return set()
-    return {end + FLOAT_STORE + k for k in range(1 if dot.output == SINGLE else 3)}
+    return {end + FLOAT_STORE + k for k in OUTPUT_PLACES[dot.output]}
 
 
 class Scheduler:
@@ -80,7 +86,7 @@ class Scheduler:
             return False
         if any(self.ready.get(a, 0) > cycle + slot for slot, read in enumerate(reads(dot)) for a in read):
             return False
-        done = cycle + len(dot.terms) - 1 + dot.latency
+        done = cycle + dot.slots - 1 + dot.latency
         if dot.write != NO_WRITE and done in self.busy_writes:
             return False
         if dot.divide != NO_DIVIDE and (

@@ -11,6 +11,7 @@ from relnav.model import pose_program as pose
 from relnav.model.binary32 import to_binary32
 from relnav.model.lane import ONE, ZERO, DotLane, LaneValue
 from relnav.model.reciprocal import reciprocal
+from relnav.model.schedule import OUTPUT_PLACES
 
 LANES = 4
 EXPONENT_FLOOR = -(1 << (words.EXPO - 1))
@@ -28,7 +29,8 @@ class Solver:
     cross_scale: int = EXPONENT_FLOOR
     quaternion_scale: int = EXPONENT_FLOOR
     centroid_scale: int = EXPONENT_FLOOR
-    determinant_acc: int = 0
+    determinant: int = 0
+    estimated: bool = True
     outputs: dict[int, LaneValue] = field(default_factory=dict)
     fixed_outputs: dict[int, int] = field(default_factory=dict)
     saturated: bool = False
@@ -42,6 +44,8 @@ class Solver:
         for bank in self.registers:
             bank[asm.STREAM + address] = value
         kind = address & 7
+        if address == pose.ITEM_VARIANCE:
+            self.estimated = value[0] == 0
         if address < 24 and value[0]:
             if kind == pose.KIND_T:
                 self.moment_scale = max(self.moment_scale, value[1])
@@ -61,24 +65,36 @@ class Solver:
             asm.REF_FIXED: -17 - words.LANE_DROP,
         }[code]
 
+    def operands(self, dot: asm.Dot, lane: int) -> list[tuple[LaneValue, LaneValue, bool]]:
+        """(x, y, negate) of the terms that count in a lane."""
+        found = []
+        for term in dot.terms:
+            if lane not in term.enable or (term.only_estimated and not self.estimated):
+                continue
+            x_address = term.x ^ (lane if term.x_by_lane else 0) ^ (lane in term.alternate)
+            y_address = term.y ^ (lane if term.y_by_lane else 0)
+            bank = self.registers[lane]
+            found.append((bank[x_address], bank[y_address], lane in term.negate))
+        return found
+
     def execute(self, dot: asm.Dot) -> None:
         """One dot product in all lanes."""
-        sums = [DotLane() for _ in range(LANES)]
+        sums = [DotLane(wide=lane == 0) for lane in range(LANES)]
         for number, lane in enumerate(sums):
-            lane.clear(self.reference(dot.reference, number))
-            for term in dot.terms:
-                if number not in term.enable:
-                    continue
-                x_address = term.x ^ (number if term.x_by_lane else 0) ^ (number in term.alternate)
-                y_address = term.y ^ (number if term.y_by_lane else 0)
-                x, y = self.registers[number][x_address], self.registers[number][y_address]
-                if dot.kind == asm.FIXED and lane.overflows(x, y):
-                    continue
-                lane.term(x, y, number in term.negate)
+            operands = self.operands(dot, number)
+            if dot.reference == asm.REF_PROBED:
+                exponents = [x[1] + y[1] for x, y, _ in operands if x[0] and y[0]]
+                lane.clear(max(exponents, default=None))
+            else:
+                lane.clear(self.reference(dot.reference, number))
+            for x, y, negate in operands:
+                if dot.kind != asm.FIXED or not lane.overflows(x, y):
+                    lane.term(x, y, negate)
         if dot.choose_turn:
-            best = max(range(LANES), key=lambda k: (sums[k].acc, -k))
+            compared = [s.narrow >> words.RANK_BITS for s in sums]
+            best = max(range(LANES), key=lambda k: (compared[k], -k))
             self.turn = 0 if self.forbid_turns else best
-            self.determinant_acc = sums[self.turn].acc
+            self.determinant = compared[self.turn]
         self.finish(dot, sums)
 
     def finish(self, dot: asm.Dot, sums: list[DotLane]) -> None:
@@ -87,7 +103,7 @@ class Solver:
             self.fixed_outputs[dot.output_index] = sums[0].fixed()
             self.saturated |= sums[0].saturated
             return
-        values = [s.raw() if dot.kind == asm.RAW else s.result(dot.half) for s in sums]
+        values = [s.raw() if dot.kind == asm.RAW else s.result(dot.half, dot.clamp) for s in sums]
         broadcast = values[self.turn if dot.source == asm.TURN else dot.source]
         suppressed = dot.only_turned and self.turn == 0
         dest = dot.dest | (8 if dot.turn_dest and self.turn == 0 else 0)
@@ -110,28 +126,33 @@ class Solver:
                 bank[dot.divide_dest] = reciprocal(broadcast)
         if dot.output == asm.SINGLE:
             self.outputs[dot.output_index] = values[0]
-        elif dot.output in (asm.TRIPLE, asm.TRIPLE_COLUMN):
+        elif dot.output != asm.NO_OUTPUT:
             stride = 3 if dot.output == asm.TRIPLE_COLUMN else 1
-            for row in (1, 2, 3):
-                self.outputs[dot.output_index + stride * (row - 1)] = values[row]
+            for place in OUTPUT_PLACES[dot.output]:
+                self.outputs[dot.output_index + stride * place] = values[place + 1]
+
+    def load_low(self, address: int, value: LaneValue) -> None:
+        """A low limb of the second drain arrives, in the place of an item that is no longer needed."""
+        for bank in self.registers:
+            bank[asm.STREAM + address] = value
+
+    def run(self, program: Iterable[asm.Dot]) -> None:
+        """The program in issue order; the schedule proves that the pipelined engine does the same."""
+        for dot in program:
+            self.execute(dot)
 
     @property
     def rank_deficient(self) -> bool:
         """The chosen determinant is no more than rounding noise."""
-        return self.determinant_acc < 1 << words.RANK_BITS
+        return self.determinant < 1
 
     @property
     def ill_conditioned(self) -> bool:
         """The chosen determinant keeps too few significant bits."""
-        return not self.rank_deficient and self.determinant_acc < 1 << words.ILL_BITS
+        return not self.rank_deficient and self.determinant < 1 << (words.ILL_BITS - words.RANK_BITS)
 
     def words(self) -> dict[int, int]:
         """Result memory: index -> 32-bit word."""
         found = {index: to_binary32(value) for index, value in self.outputs.items()}
         found |= {index: value % (1 << 32) for index, value in self.fixed_outputs.items()}
         return found
-
-    def run(self, program: Iterable[asm.Dot]) -> None:
-        """The program in issue order; the schedule proves that the pipelined engine does the same."""
-        for dot in program:
-            self.execute(dot)

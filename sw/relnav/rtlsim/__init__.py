@@ -49,7 +49,7 @@ def run_frames(
     simulator: "icarus" or "verilator". rtl_dir: another copy of rtl/. waves: where to leave the waveform
     (default: the environment's RELNAV_WAVES; the suffix becomes .vcd where FST cannot be written).
     feed: "stream" or "registers". timeout: seconds of simulation.
-    Raises BackendError, in one line: simulator missing, RTL that does not compile, a core that gives no result.
+    Raises BackendError: simulator missing, RTL that does not compile, a core that gives no result.
     """
     if not frames:
         return []
@@ -81,7 +81,8 @@ def run_frames(
     except runner.SimulationFailed as error:
         if reason := job.read_failure(folder / job.RESULTS):
             raise BackendError(f"{simulator}: {reason}") from None
-        if found := _compiler_message(str(error), rtl):
+        if error.build_log is not None:
+            found = _compiler_message(error.build_log.read_text(errors="replace"), rtl)
             raise BackendError(f"{simulator} cannot compile the RTL: {found}") from None
         keep = True  # the log is all there is to go by
         first = str(error).partition("\n")[0]
@@ -127,14 +128,12 @@ def _quiet() -> Iterator[None]:
         logging.disable(before)
 
 
-def _compiler_message(text: str, rtl: Path) -> str | None:
+def _compiler_message(log: str, rtl: Path) -> str:
     """The first error of a compiler's log, the file named as seen from the RTL directory."""
-    if "building" not in text.partition("\n")[0]:
-        return None
-    found = [match for line in text.splitlines() if (match := _MESSAGE.match(line.strip()))]
-    if not found:
-        return next((line for line in text.splitlines()[1:] if "rror" in line), None)
-    first = found[0]
+    lines = [line.strip() for line in log.splitlines() if "warning" not in line.lower()]
+    first = next(filter(None, map(_MESSAGE.match, lines)), None)
+    if first is None:
+        return next((line for line in lines if "error" in line.lower()), "it says nothing")
     file = Path(first["file"]).resolve()
     shown = rtl / file.relative_to(rtl.resolve()) if file.is_relative_to(rtl.resolve()) else file
     return f"{shown}:{first['line']}: {first['text']}"

@@ -44,7 +44,7 @@ def read(file: Path) -> tuple[list[QuantisedFrame], CoreConfig, Feed]:
             QuantisedFrame(
                 stored[f"a{number}"],
                 stored[f"b{number}"],
-                stored[f"w{number}"] if f"w{number}" in stored else None,
+                stored.get(f"w{number}"),
                 each["frac"],
                 each["weight_scale"],
             )
@@ -65,11 +65,12 @@ def write_failure(file: Path, reason: str) -> None:
 
 def read_results(file: Path) -> list[RawResult]:
     """The results that were written."""
-    found = json.loads(file.read_text())["results"]
-    return [
-        RawResult(**{key: tuple(value) if isinstance(value, list) else value for key, value in one.items()})
-        for one in found
-    ]
+    found: list[dict[str, Any]] = json.loads(file.read_text())["results"]
+    return [RawResult(**{name: _immutable(value) for name, value in one.items()}) for one in found]
+
+
+def _immutable(value: Any) -> Any:
+    return tuple(value) if isinstance(value, list) else value
 
 
 def read_failure(file: Path) -> str | None:
