@@ -1,11 +1,14 @@
 // SPDX-License-Identifier: Apache-2.0
-// Reciprocal of a lane value by radix-8 restoring division.
+// Reciprocal of a lane value by signed radix-8 division (SRT, digits -4..4).
 //
-//   1 / (m 2^e) = +-floor(2^64 / |m|) 4 * 2^(-e - 66), |m| in [2^33, 2^34], relative error below 2^-30
+//   1 / (m 2^e) = +-floor(2^N / |m|) 2^PAD * 2^(-e - 66), |m| in [2^33, 2^34], N = 66 - PAD = 31 + 3 DIGITS
 //   1 / 0 gives mantissa 2^33, exponent 2000: overflows binary32 and saturates Q15.16
 //
-// cycle | 0 start: |m| | 1 multiples of |m|, first digit | 2..11 three bits each | 12 result
-// `done` marks cycle 12. A start while busy begins anew.
+//   r_0 = 2^31, r_(n+1) = 8 r_n - v_n m, v_n = 8 r_n / m rounded: |r| <= 4/7 |m|
+//
+// cycle | 0 start | 1..DIGITS a digit each | DIGITS + 1 result: the digits, less one if the last remainder is negative
+// `done` marks cycle DIGITS + 1. A start while busy begins anew.
+`include "relnav_words.vh"
 `resetall
 `default_nettype none
 module reciprocal (
@@ -16,76 +19,98 @@ module reciprocal (
     output wire        done,
     output wire [47:0] result
 );
+  localparam DIGITS = (`RELNAV_RECIPROCAL_NUMERATOR - 31) / 3;
+  localparam PAD = 66 - `RELNAV_RECIPROCAL_NUMERATOR;
+  localparam LAST = DIGITS + 1;
   reg [3:0] step;  // 0 idle, else the cycle after start
-  reg negative, zero;
   reg [11:0] exponent;
   reg [34:0] divisor;
-  // remainder < divisor <= 2^34; the multiples reach 7 * 2^34 < 2^37
+  reg [36:0] triple;
+  // Multiples of the divisor's top 11 bits, for the choice of a digit only.
+  wire [10:0] leading = value[34:24];
+  reg [13:0] five, seven;
   reg [34:0] remainder;
-  reg [36:0] times_3, times_5, times_7;
-  reg [31:0] quotient;
 
-  wire [37:0] scaled = {remainder, 3'd0};
-  wire [37:0] less_1 = scaled - {3'd0, divisor};
-  wire [37:0] less_2 = scaled - {2'd0, divisor, 1'b0};
-  wire [37:0] less_3 = scaled - {1'b0, times_3};
-  wire [37:0] less_4 = scaled - {1'b0, divisor, 2'd0};
-  wire [37:0] less_5 = scaled - {1'b0, times_5};
-  wire [37:0] less_6 = scaled - {times_3, 1'b0};
-  wire [37:0] less_7 = scaled - {1'b0, times_7};
+  // ---- digit: the thresholds of |v| = 1, 2, 3, 4 are 1, 3, 5 and 7 halves of |m|. A digit may be one off its rounding as
+  // long as the remainder stays below 4/7 |m|: thresholds may be off by |m|/14 >= 2^34 / 28. With 8r and the multiples cut
+  // to units of 2^29 and five, seven off by less than 7/2 2^24, they are off by less than 2^34 (1/32 + 7/2048) < 2^34 / 28.
+  wire below_zero = remainder[34];
+  wire positive = ~(below_zero ^ divisor[34]);  // the digit's sign
+  wire [8:0] r = remainder[34:26];
+  wire [8:0] t_1 = {{4{divisor[34]}}, divisor[34:30]};
+  wire [8:0] t_2 = {{2{triple[36]}}, triple[36:30]};
+  wire [8:0] t_3 = {five[13], five[13:6]};
+  wire [8:0] t_4 = {seven[13], seven[13:6]};
+  // 8r - t, or 8r + t + 1 with signs that differ: the cut bits then count for one half each
+  wire [9:0] beyond_1 = {r, 1'b1} + {t_1 ^ {9{positive}}, 1'b1};
+  wire [9:0] beyond_2 = {r, 1'b1} + {t_2 ^ {9{positive}}, 1'b1};
+  wire [9:0] beyond_3 = {r, 1'b1} + {t_3 ^ {9{positive}}, 1'b1};
+  wire [9:0] beyond_4 = {r, 1'b1} + {t_4 ^ {9{positive}}, 1'b1};
+  wire [4:1] reached = ~({beyond_4[9], beyond_3[9], beyond_2[9], beyond_1[9]} ^ {4{below_zero}});
 
-  // Bit 37 of a difference says that the multiple was too large.
-  reg [2:0] digit;
-  reg [34:0] next_remainder;
-  always @* begin
-    if (!less_4[37]) begin
-      if (!less_6[37]) begin
-        digit = less_7[37] ? 3'd6 : 3'd7;
-        next_remainder = less_7[37] ? less_6[34:0] : less_7[34:0];
-      end else begin
-        digit = less_5[37] ? 3'd4 : 3'd5;
-        next_remainder = less_5[37] ? less_4[34:0] : less_5[34:0];
-      end
-    end else begin
-      if (!less_2[37]) begin
-        digit = less_3[37] ? 3'd2 : 3'd3;
-        next_remainder = less_3[37] ? less_2[34:0] : less_3[34:0];
-      end else begin
-        digit = less_1[37] ? 3'd0 : 3'd1;
-        next_remainder = less_1[37] ? scaled[34:0] : less_1[34:0];
-      end
-    end
-  end
+  // ---- remainder; its 35 bits hold |r| <= 4/7 2^34, the bits above cancel
+  wire [34:0] multiple;
+  mux4 #(
+      .WIDTH(35)
+  ) choose (
+      .select({reached[3], reached[4] | (reached[2] & ~reached[3])}),
+      .in_0(divisor),
+      .in_1({divisor[33:0], 1'b0}),
+      .in_2(triple[34:0]),
+      .in_3({divisor[32:0], 2'd0}),
+      .out(multiple)
+  );
+  wire subtract = positive & reached[1];
+  wire [35:0] next = {remainder[31:0], 3'd0, subtract} + {(multiple ^ {35{positive}}) & {35{reached[1]}}, subtract};
 
-  wire smallest = divisor == 35'h200000000;  // 2^33: the first digit of 2^34 / |m| is 2, else 1
+  // ---- quotient: digit v = 8 carry + low - 7. The sevens of all digits are 8^DIGITS - 1: modulo 8^DIGITS they add one.
+  reg [3*DIGITS-1:0] low;
+  reg [DIGITS-2:0] carry;
+  wire [2:0] size = {reached[4], reached[2] & ~reached[4], (reached[1] & ~reached[2]) | (reached[3] & ~reached[4])};
+  wire [2:0] next_low = positive ? size - 3'd1 : ~size;
 
   always @(posedge clk) begin
     if (start) begin
-      divisor  <= value[34] ? -value[34:0] : value[34:0];
-      exponent <= value[46:35];
-      zero     <= value[47];
-      negative <= value[34];
+      if (value[47]) begin
+        // 2^33 takes its place: 2^64 / 2^33 = 2^31
+        divisor  <= 35'h200000000;
+        triple   <= 37'h600000000;
+        five     <= 14'd5 << 9;
+        seven    <= 14'd7 << 9;
+        exponent <= 12'd2000;
+      end else begin
+        divisor  <= value[34:0];
+        triple   <= {{2{value[34]}}, value[34:0]} + {value[34], value[34:0], 1'b0};
+        five     <= {leading[10], leading, 2'd0} + {{3{leading[10]}}, leading};
+        seven    <= {leading, 3'd0} - {{3{leading[10]}}, leading};
+        exponent <= -12'd65 + ~value[46:35];  // -e - 66
+      end
     end
-    if (step == 4'd1) begin
-      times_3   <= {1'b0, divisor, 1'b0} + {2'd0, divisor};
-      times_5   <= {divisor, 2'd0} + {2'd0, divisor};
-      times_7   <= {divisor[33:0], 3'd0} - {2'd0, divisor};
-      remainder <= smallest ? 35'd0 : 35'h400000000 - divisor;
-      quotient  <= smallest ? 32'd2 : 32'd1;
-    end else begin
-      remainder <= next_remainder;
-      quotient  <= {quotient[28:0], digit};
-    end
-    step <= start ? 4'd1 : (step == 4'd0 || step == 4'd12) ? 4'd0 : step + 4'd1;
+    if (start) remainder <= 35'h080000000;
+    else remainder <= next[35:1];
+    low   <= {low[3*DIGITS-4:0], next_low};
+    carry <= {carry[DIGITS-3:0], subtract};
+    step  <= start ? 4'd1 : (step == 4'd0 || step == LAST[3:0]) ? 4'd0 : step + 4'd1;
     if (rst) step <= 4'd0;
   end
 
-  wire [34:0] magnitude = {1'b0, quotient, 2'd0};
-  wire [11:0] result_exponent = -exponent - 12'd66;
-  assign done = step == 4'd12;
-  assign result = zero ? {1'b0, 12'd2000, 35'h200000000}
-                       : {1'b0, result_exponent, negative ? -magnitude : magnitude};
+  // The last digit takes the correction towards zero, and the one that the sevens leave: 8 + v = 8 last_carry + last.
+  wire signed [4:0] corrected =
+      {{2{~carry[0]}}, low[2:0]} + 5'sd1 + (~below_zero ? 5'sd0 : divisor[34] ? 5'sd1 : -5'sd1);
+  wire [2:0] last = corrected[2:0];
+  wire last_carry = ~corrected[4];
+  wire [DIGITS-2:0] into = {carry[DIGITS-2:1], last_carry};
+  wire [3*DIGITS-4:0] carries;
+  genvar n;
+  generate
+    for (n = 0; n < DIGITS - 1; n = n + 1) begin : g_carry
+      assign carries[3*n+:3] = {2'd0, into[n]};
+    end
+  endgenerate
+  wire [3*DIGITS-4:0] high = low[3*DIGITS-1:3] + carries;
+  assign done = step == LAST[3:0];
+  assign result = {1'b0, exponent, high, last, {PAD{1'b0}}};
 
-  wire unused = &{1'b0, less_1[36:35], less_2[36:35], less_3[36:35], less_4[36:35], less_5[36:35], less_6[36:35], less_7[36:35]};
+  wire unused = &{1'b0, next[0], five[5:0], seven[5:0], corrected[3], beyond_1[8:0], beyond_2[8:0], beyond_3[8:0], beyond_4[8:0]};
 endmodule
 `resetall

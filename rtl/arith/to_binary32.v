@@ -15,24 +15,26 @@ module to_binary32 (
   reg zero, negative;
   reg [34:0] magnitude;
   reg signed [12:0] biased;
-  wire signed [34:0] mantissa = value[34:0];
 
   // magnitude[33:10] are the 24 bits kept; 2^34 itself keeps 2^24 and needs no rounding.
   wire round_up = magnitude[9] & (|magnitude[8:0] | magnitude[10]);
   wire [24:0] rounded = magnitude[34:10] + {24'd0, round_up};
   // A carry out of the 24 bits leaves zeros below: only the exponent moves.
   wire signed [12:0] exponent = biased + {12'd0, rounded[24]};
+  wire underflow = exponent[12] | ~|exponent[11:0];
+  wire overflow = ~exponent[12] & (|exponent[11:8] | &exponent[7:0]);
 
   always @(posedge clk) begin
     zero      <= value[47];
     negative  <= value[34];
     biased    <= $signed({value[46], value[46:35]}) + 13'sd160;  // 33 + 127
-    magnitude <= value[34] ? -mantissa : mantissa;
+    magnitude <= (value[34:0] ^ {35{value[34]}}) + {34'd0, value[34]};  // one LUT a bit
 
-    if (zero) binary32 <= 32'd0;
-    else if (exponent >= 13'sd255) binary32 <= {negative, 8'hff, 23'd0};
-    else if (exponent <= 13'sd0) binary32 <= {negative, 31'd0};
-    else binary32 <= {negative, exponent[7:0], rounded[22:0]};
+    binary32[31] <= negative & ~zero;
+    binary32[30:23] <= (exponent[7:0] | {8{overflow}}) & {8{~zero & ~underflow}};
+    // constants for a whole field come from the flip-flops' synchronous reset
+    if (zero | underflow | overflow) binary32[22:0] <= 23'd0;
+    else binary32[22:0] <= rounded[22:0];
   end
 
   wire unused = &{1'b0, rounded[23]};  // the leading one is not stored

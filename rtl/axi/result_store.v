@@ -2,7 +2,7 @@
 // Result memory, double-buffered: 2 banks x 64 words of 32 bits. A frame writes the hidden bank; a group's commit makes what it wrote
 // readable at once, so a reader never sees half a frame, and an aborted frame is never seen at all.
 //
-// Groups by index: 0..5 q, 6..17 pose, 18..63 all. A commit may come with the group's last write or any clock later.
+// Groups by index: 0..2 q, 3..17 pose (q in Q15.16 with it), 18..63 all. A commit may come with the group's last write or any clock later.
 // Every word of a group must be written before its commit: a word left out shows the frame before the last one.
 //
 // One port: writing has priority, a read answers one clock after read_valid && !read_wait, and is 0 in every other clock. So each bit
@@ -27,7 +27,7 @@ module result_store (
     output reg  [31:0] read_data
 );
 
-  localparam POSE_FIRST = 6, ALL_FIRST = 18;
+  localparam POSE_FIRST = 3, ALL_FIRST = 18;
 
   (* ram_style = "distributed" *)
   reg [31:0] memory[0:127];

@@ -24,6 +24,8 @@
 `define RELNAV_LANE_DROP 25
 // accumulator of a float lane
 `define RELNAV_LANE_ACC 48
+// accumulator of the wide lane 0
+`define RELNAV_LANE_WIDE_ACC 76
 // low accumulator bits that a raw result leaves out
 `define RELNAV_LANE_RAW 9
 // determinant sums below this power of two are rounding noise
@@ -31,5 +33,5 @@
 // determinant sums below this power of two are ill conditioned
 `define RELNAV_ILL_BITS 22
 // power of two the reciprocal divides
-`define RELNAV_RECIPROCAL_NUMERATOR 64
+`define RELNAV_RECIPROCAL_NUMERATOR 61
 `endif

@@ -10,7 +10,8 @@
 `resetall
 `default_nettype none
 module oltae_core #(
-    parameter WEIGHTED = 1
+    parameter WEIGHTED   = 1,
+    parameter COVARIANCE = 1
 ) (
     input  wire        clk,
     input  wire        rst,
@@ -18,6 +19,7 @@ module oltae_core #(
     input  wire        acknowledge,
     // configuration, stable while busy
     input  wire        config_forbid_turns,
+    input  wire        config_covariance,
     input  wire [ 7:0] config_frac,
     input  wire [31:0] config_variance,
     // frame_loader
@@ -121,6 +123,9 @@ module oltae_core #(
   wire [`RELNAV_COUNT-1:0] point_count;
   wire [6*`RELNAV_M1(WEIGHTED)-1:0] first_moments;
   wire flush = clear | soft_reset;
+  wire redrain;
+  reg low_pass;  // the second drain, for the low limbs
+  always @(posedge clk) low_pass <= (low_pass | redrain) & ~flush & ~rst;
 
   gram_array #(
       .WEIGHTED(WEIGHTED)
@@ -135,7 +140,7 @@ module oltae_core #(
       .beat_index(beat_index),
       .beat_weight(beat_weight),
       .beat_last(beat_last),
-      .redrain(1'b0),
+      .redrain(redrain),
       .pair_valid(pair_valid),
       .pair_slot(pair_slot),
       .pair_lane(pair_lane),
@@ -162,7 +167,7 @@ module oltae_core #(
       .clk(clk),
       .rst(rst),
       .clear(flush),
-      .pair_last(pair_last & pair_valid),
+      .pair_last(pair_last & pair_valid & ~low_pass),
       .weight_sum(weight_sum),
       .point_count(point_count),
       .first_moments(first_moments),
@@ -175,7 +180,7 @@ module oltae_core #(
   );
 
   wire item_valid, item_zero;
-  wire [5:0] item_tag;
+  wire [6:0] item_tag;
   wire [34:0] item_mant;
   wire [11:0] item_exp;
   moment_stream #(
@@ -184,20 +189,20 @@ module oltae_core #(
       .M2_BITS(`RELNAV_M2(WEIGHTED)),
       .CENTRED_BITS(`RELNAV_CENTRED(WEIGHTED)),
       .VALUE_BITS(`RELNAV_M1(WEIGHTED)),
-      .TAG_BITS(6)
+      .TAG_BITS(7)
   ) stream (
       .clk(clk),
       .rst(rst | flush),
-      .low(1'b0),
+      .low(low_pass),
       .pair_valid(pair_valid),
-      .pair_tag({1'b0, pair_slot, pair_lane}),
+      .pair_tag({low_pass, 1'b0, pair_slot, pair_lane}),
       .weight_sum(weight_sum),
       .pair_moment(pair_moment),
       .pair_first_i(pair_first_i),
       .pair_first_j(pair_first_j),
       .pair_scale(pair_scale),
       .value_valid(value_valid),
-      .value_tag({1'b1, value_address}),
+      .value_tag({2'b01, value_address}),
       .value(value),
       .value_scale(value_scale),
       .item_valid(item_valid),
@@ -209,21 +214,40 @@ module oltae_core #(
 
   // ------------------------------------------------------------------ solve
   // lane -> place in the stream bank's block of the slot: T E B2 F H P N at 0 1 6 2 3 4 5
+  // low limbs go where no longer needed items are: T B2 P N at 1 7 2 3
+  wire item_low = item_tag[6];
   reg [2:0] kind;
-  always @*
-    case (item_tag[2:0])
-      3'd0: kind = 3'd0;
-      3'd1: kind = 3'd1;
-      3'd2: kind = 3'd6;
-      default: kind = item_tag[2:0] - 3'd1;
-    endcase
+  reg wanted;
+  always @* begin
+    wanted = 1'b1;
+    if (item_low)
+      case (item_tag[2:0])
+        3'd0: kind = 3'd1;
+        3'd2: kind = 3'd7;
+        3'd5: kind = 3'd2;
+        3'd6: kind = 3'd3;
+        default: {kind, wanted} = 4'd0;
+      endcase
+    else
+      case (item_tag[2:0])
+        3'd0: kind = 3'd0;
+        3'd1: kind = 3'd1;
+        3'd2: kind = 3'd6;
+        default: kind = item_tag[2:0] - 3'd1;
+      endcase
+  end
   wire [4:0] item_address = item_tag[5] ? item_tag[4:0] : {item_tag[4:3], kind};
-  solve_engine engine (
+  solve_engine #(
+      .COVARIANCE(COVARIANCE)
+  ) engine (
       .clk(clk),
       .rst(rst | flush),
       .forbid_turns(config_forbid_turns),
-      .item_valid(item_valid),
-      .item_first(item_tag == 6'd0),
+      .covariance(COVARIANCE != 0 && config_covariance),
+      .item_valid(item_valid & wanted),
+      .item_first(item_tag == 7'd0),
+      .item_low(item_low),
+      .redrain(redrain),
       .item_address(item_address),
       .item_value({item_zero, item_exp, item_mant}),
       .write_valid(write_valid),

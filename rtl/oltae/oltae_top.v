@@ -169,13 +169,15 @@ module oltae_top #(
   wire [31:0] write_data;
 
   oltae_core #(
-      .WEIGHTED(WEIGHTED)
+      .WEIGHTED(WEIGHTED),
+      .COVARIANCE(COVARIANCE)
   ) core (
       .clk(clk),
       .rst(rst),
       .soft_reset(soft_reset),
       .acknowledge(acknowledge),
       .config_forbid_turns(config_forbid_turns),
+      .config_covariance(config_covariance),
       .config_frac(config_frac),
       .config_variance(config_variance),
       .accept(accept),

@@ -11,15 +11,20 @@
 `include "relnav_words.vh"
 `resetall
 `default_nettype none
-module solve_engine (
+module solve_engine #(
+    parameter COVARIANCE = 1  // 0 leaves the covariances' part of the program out
+) (
     input  wire        clk,
     input  wire        rst,
     input  wire        forbid_turns,
+    input  wire        covariance,     // wanted
     // moment stream
     input  wire        item_valid,
     input  wire        item_first,
+    input  wire        item_low,       // a low limb, of the second drain
     input  wire [ 4:0] item_address,
     input  wire [47:0] item_value,
+    output wire        redrain,        // asks for the low limbs
     // results
     output wire        write_valid,
     output wire [ 5:0] write_index,
@@ -36,12 +41,13 @@ module solve_engine (
 );
   // result kinds, references and modes of sw/relnav/model/assembler.py
   localparam [1:0] RAW = 2'd1, FIXED = 2'd2;
-  localparam [2:0] REF_OWN = 3'd0, REF_MOMENT = 3'd1, REF_CROSS = 3'd2, REF_QUATERNION = 3'd3, REF_UNIT = 3'd4,
-      REF_CENTROID = 3'd5, REF_ROTATED = 3'd6;
+  localparam [3:0] REF_OWN = 4'd0, REF_MOMENT = 4'd1, REF_CROSS = 4'd2, REF_QUATERNION = 4'd3, REF_UNIT = 4'd4,
+      REF_CENTROID = 4'd5, REF_ROTATED = 4'd6;
+  localparam [2:0] MARK_Q = 3'd1, MARK_POSE = 3'd2, MARK_BASIC = 3'd3, MARK_ALL = 3'd4;
   localparam [1:0] BROADCAST = 2'd2;  // 1: each lane its own
   localparam [1:0] TRACK_QUATERNION = 2'd1, TRACK_CENTROID = 2'd2;
   localparam [1:0] DIVIDE = 2'd1, DIVIDE_UNTURNED = 2'd2, DIVIDE_TURNED = 2'd3;
-  localparam [1:0] SINGLE = 2'd1, TRIPLE = 2'd2;
+  localparam [2:0] SINGLE = 3'd1, TRIPLE_COLUMN = 3'd3, PAIR = 3'd4, THIRD = 3'd5;
   localparam [47:0] ONE = {1'b0, -12'd33, 35'h200000000};
   localparam signed [13:0] LOWEST = -14'sd2048;
   // Determinant sums below these, in units of 2^-43 of the largest possible: docs/decisions/conditioning.md
@@ -49,23 +55,32 @@ module solve_engine (
 
   // ------------------------------------------------------------------ program
   reg run;
-  reg [8:0] counter;
+  reg [9:0] counter, word_address, dot_address;
+  reg second_pass;
   wire finished;
   wire [5:0] x_address;
   wire [4:0] y_address;
   wire x_by_lane, y_by_lane, first;
   wire [3:0] alternate, negate, enable;
-  wire [2:0] reference_code;
+  wire [3:0] reference_code;
+  wire only_estimated, clamp;
   wire last, half, turn_dest, only_turned, choose_turn;
-  wire [2:0] source;
-  wire [1:0] kind, write, track, divide, result_output, mark;
+  wire [2:0] source, result_output, mark;
+  wire [1:0] kind, write, track, divide;
   wire [4:0] dest, divide_dest;
   wire [5:0] output_index;
 
-  solve_program microprogram (
+  // A probed dot product runs twice: the first pass finds its largest exponent, then the program goes back to its first slot.
+  wire probed = reference_code[3];
+  wire rewind = last & probed & ~second_pass;
+  wire [9:0] address = !rewind ? counter : first ? word_address : dot_address;
+
+  solve_program #(
+      .COVARIANCE(COVARIANCE)
+  ) microprogram (
       .clk(clk),
       .run(run),
-      .counter(counter),
+      .address(address),
       .x_address(x_address),
       .x_by_lane(x_by_lane),
       .y_address(y_address),
@@ -74,10 +89,12 @@ module solve_engine (
       .negate(negate),
       .enable(enable),
       .first(first),
-      .reference(reference_code),
+      .only_estimated(only_estimated),
+      .reference_code(reference_code),
       .last(last),
       .kind(kind),
       .half(half),
+      .clamp(clamp),
       .write(write),
       .source(source),
       .dest(dest),
@@ -90,35 +107,42 @@ module solve_engine (
       .result_output(result_output),
       .output_index(output_index),
       .mark(mark),
+      .redrain(redrain),
       .finished(finished)
   );
 
-  wire start = item_valid & item_first;
+  wire start = item_valid & item_first & ~item_low;
   always @(posedge clk) begin
-    run     <= start | (run & ~finished);
-    counter <= start ? 9'd2 : counter + 9'd1;
+    run          <= start | (run & ~finished & ~all_done);
+    counter      <= start ? 10'd2 : address + 10'd1;
+    word_address <= address;
+    if (first) dot_address <= word_address;
+    second_pass  <= rewind | (second_pass & ~last);
     if (rst) run <= 1'b0;
+    if (rst | start) second_pass <= 1'b0;
   end
 
   // Result fields travel beside the lanes: raw and fixed results leave in cycle 5, `half` acts in 6, the rest in 7.
   reg [1:0] kind_pipe[1:5];
   reg [7:1] live;  // a dot product ends here
   reg half_1, half_2, half_3, half_4, half_5, half_6;
+  reg clamp_1, clamp_2, clamp_3, clamp_4, clamp_5, clamp_6;
   reg choose_1, choose_2, choose_3, choose_4, choose_5, choose_6;
-  localparam DEST = 21, TAIL = DEST + 5 + 3 + 2;  // bits below and above `dest`
+  localparam DEST = 23, TAIL = DEST + 5 + 3 + 2;  // bits below and above `dest`
   reg [TAIL-1:0] tail[1:7];
   integer stage;
   always @(posedge clk) begin
-    live         <= rst ? 7'd0 : {live[6:1], last};
+    live         <= rst ? 7'd0 : {live[6:1], last & ~rewind};
     kind_pipe[1] <= kind;
     for (stage = 2; stage <= 5; stage = stage + 1) kind_pipe[stage] <= kind_pipe[stage-1];
     {half_1, half_2, half_3, half_4, half_5, half_6} <= {half, half_1, half_2, half_3, half_4, half_5};
+    {clamp_1, clamp_2, clamp_3, clamp_4, clamp_5, clamp_6} <= {clamp, clamp_1, clamp_2, clamp_3, clamp_4, clamp_5};
     {choose_1, choose_2, choose_3, choose_4, choose_5, choose_6} <= {choose_turn, choose_1, choose_2, choose_3, choose_4, choose_5};
     tail[1] <= {last & kind == RAW ? 2'd0 : write, source, dest, turn_dest, only_turned, track, divide, divide_dest, result_output, output_index, mark};
     for (stage = 2; stage <= 7; stage = stage + 1) tail[stage] <= tail[stage-1];
   end
-  wire [1:0] write_7, track_7, divide_7, output_7, mark_7;
-  wire [2:0] source_7;
+  wire [1:0] write_7, track_7, divide_7;
+  wire [2:0] source_7, output_7, mark_7;
   wire [4:0] dest_7, divide_dest_7;
   wire turn_dest_7, only_turned_7;
   wire [5:0] output_index_7;
@@ -129,13 +153,13 @@ module solve_engine (
   wire [4:0] raw_dest;
   wire [5:0] fixed_index;
   wire unused_5;
-  assign {raw_dest, fixed_index, unused_5} = {tail[5][DEST+:5], tail[5][2+:6], ^tail[5]};
+  assign {raw_dest, fixed_index, unused_5} = {tail[5][DEST+:5], tail[5][3+:6], ^tail[5]};
 
   // ------------------------------------------------------------------ scales and reference exponents
   reg signed [13:0] moment_scale, cross_scale, quaternion_scale, centroid_scale;
   wire signed [13:0] item_exponent = {{2{item_value[46]}}, item_value[46:35]};
-  wire is_trace = item_valid & ~item_value[47] & item_address[2:0] == 3'd0 & item_address[4:3] != 2'd3;
-  wire is_cross = item_valid & ~item_value[47] & item_address[2:0] == 3'd5 & item_address[4:3] != 2'd3;
+  wire is_trace = item_valid & ~item_low & ~item_value[47] & item_address[2:0] == 3'd0 & item_address[4:3] != 2'd3;
+  wire is_cross = item_valid & ~item_low & ~item_value[47] & item_address[2:0] == 3'd5 & item_address[4:3] != 2'd3;
   wire [47:0] bus;
   wire signed [13:0] bus_exponent = {{2{bus[46]}}, bus[46:35]};
   wire unturned = turn == 2'd0;
@@ -156,12 +180,18 @@ module solve_engine (
   end
 
   reg signed [13:0] reference, reference_cross;
-  reg [2:0] reference_code_1;
-  reg own_reference;
+  reg [3:0] reference_code_1;
+  reg probing_1;
+  reg own_reference, probing, probed_reference;
+  reg estimated;  // no VARIANCE was given
   wire signed [13:0] quaternion_square = quaternion_scale <<< 1;
   always @(posedge clk) begin
     reference_code_1 <= reference_code;
     own_reference    <= reference_code_1 == REF_OWN;
+    probing_1        <= probed & ~second_pass;
+    probing          <= probing_1;
+    probed_reference <= reference_code_1[3] & ~probing_1;
+    if (item_valid && item_address == 5'd29) estimated <= item_value[47];
     case (reference_code_1)
       REF_MOMENT: reference <= moment_scale - 14'sd32;
       REF_CROSS: reference <= moment_scale - 14'sd33;
@@ -191,7 +221,8 @@ module solve_engine (
   generate
     for (k = 0; k < 4; k = k + 1) begin : lane
       dot_lane #(
-          .LANE(k)
+          .LANE(k),
+          .WIDE(k == 0)
       ) dot (
           .clk(clk),
           .x_address(x_address),
@@ -200,11 +231,14 @@ module solve_engine (
           .y_by_lane(y_by_lane),
           .alternate(alternate[k]),
           .negate(negate[k]),
-          .enable(enable[k]),
+          .enable(enable[k] & (estimated | ~only_estimated)),
           .first(first),
           .reference(k == 0 && cross_2 ? reference_cross : reference),
           .own_reference(own_reference),
+          .probing(probing),
+          .probed_reference(probed_reference),
           .half(half_6),
+          .clamp(k == 0 ? clamp_6 : 1'b0),
           .write(register_write),
           .write_address(register_address),
           .write_broadcast(register_broadcast),
@@ -237,17 +271,21 @@ module solve_engine (
 
   // ------------------------------------------------------------------ choice of the turn: cycles 5 and 6 of the determinants
   reg upper_01, upper_23;
-  reg signed [47:0] best_01, best_23;
-  wire better_1 = ~forbid_turns & sum[1] > sum[0];
-  wire better_3 = sum[3] > sum[2];
+  // Bits below RANK_BITS are noise and not compared.
+  reg signed [47:RANK_BITS] best_01, best_23;
+  wire signed [47:RANK_BITS] det_0 = sum[0][47:RANK_BITS], det_1 = sum[1][47:RANK_BITS];
+  wire signed [47:RANK_BITS] det_2 = sum[2][47:RANK_BITS], det_3 = sum[3][47:RANK_BITS];
+  wire better_1 = ~forbid_turns & det_1 > det_0;
+  wire better_3 = det_3 > det_2;
   wire take_23 = ~forbid_turns & best_23 > best_01;
-  wire signed [47:0] best = take_23 ? best_23 : best_01;
-  wire unused = &{1'b0, above[3:1], best[RANK_BITS-1:0]};
+  wire signed [47:RANK_BITS] best = take_23 ? best_23 : best_01;
+  wire unused = &{1'b0, above[3:1], unused_5, unused_sums};
+  wire unused_sums = ^{sum[0], sum[1], sum[2], sum[3]};
   always @(posedge clk) begin
     upper_01 <= better_1;
     upper_23 <= better_3;
-    best_01  <= better_1 ? sum[1] : sum[0];
-    best_23  <= better_3 ? sum[3] : sum[2];
+    best_01  <= better_1 ? det_1 : det_0;
+    best_23  <= better_3 ? det_3 : det_2;
     chosen   <= live[6] & choose_6;
     if (live[6] & choose_6) begin
       turn            <= {take_23, take_23 ? upper_23 : upper_01};
@@ -277,52 +315,51 @@ module solve_engine (
   end
 
   // binary32: three results of the lanes 1 to 3 leave one a cycle
-  reg [47:0] queue_0, queue_1, queue_2;
-  reg [2:0] queue_count;
+  reg [47:0] queue_1, queue_2;
+  reg [2:0] queue_valid;
   reg [5:0] queue_index;
   reg queue_column;
-  reg [1:0] queue_mark;
-  wire is_float = live[7] & output_7 != 2'd0;
+  reg [2:0] queue_mark;
+  wire is_float = live[7] & output_7 != 3'd0;
   wire single = output_7 == SINGLE;
+  wire [47:0] head = !is_float ? queue_1 : single ? result[0] : result[1];
   always @(posedge clk) begin
     if (is_float) begin
-      queue_0      <= single ? result[0] : result[1];
       queue_1      <= result[2];
       queue_2      <= result[3];
-      queue_count  <= single ? 3'b001 : 3'b111;
+      queue_valid  <= single ? 3'b001 : output_7 == PAIR ? 3'b110 : output_7 == THIRD ? 3'b100 : 3'b111;
       queue_index  <= output_index_7;
-      queue_column <= output_7 != TRIPLE;
+      queue_column <= output_7 == TRIPLE_COLUMN;
       queue_mark   <= mark_7;
     end else begin
-      queue_0     <= queue_1;
       queue_1     <= queue_2;
-      queue_count <= queue_count >> 1;
+      queue_valid <= queue_valid >> 1;
       queue_index <= queue_index + (queue_column ? 6'd3 : 6'd1);
     end
-    if (rst | start) queue_count <= 3'd0;
+    if (rst | start) queue_valid <= 3'd0;
   end
 
   wire [31:0] binary32;
   to_binary32 pack (
       .clk(clk),
-      .value(queue_0),
+      .value(head),
       .binary32(binary32)
   );
-  reg valid_1, valid_2;
-  reg [5:0] index_1, index_2;
-  reg [1:0] mark_1, mark_2;
+  reg valid_1;
+  reg [5:0] index_1;
+  reg [2:0] mark_1;
   always @(posedge clk) begin
-    {valid_1, valid_2} <= {queue_count[0], valid_1};
-    {index_1, index_2} <= {queue_index, index_1};
-    {mark_1, mark_2} <= {queue_count == 3'b001 ? queue_mark : 2'd0, mark_1};
-    if (rst | start) {valid_1, valid_2} <= 2'd0;
+    valid_1 <= queue_valid[0];
+    index_1 <= queue_index;
+    mark_1  <= queue_valid == 3'b001 ? queue_mark : 3'd0;
+    if (rst | start) valid_1 <= 1'b0;
   end
 
-  assign write_valid = valid_2 | fixed_valid;
-  assign write_index = fixed_valid ? fixed_index_6 : index_2;
+  assign write_valid = valid_1 | fixed_valid;
+  assign write_index = fixed_valid ? fixed_index_6 : index_1;
   assign write_data  = fixed_valid ? fixed_data : binary32;
-  assign q_done      = valid_2 & mark_2 == 2'd1;
-  assign pose_done   = valid_2 & mark_2 == 2'd2;
-  assign all_done    = valid_2 & mark_2 == 2'd3;
+  assign q_done      = valid_1 & mark_1 == MARK_Q;
+  assign pose_done   = valid_1 & mark_1 == MARK_POSE;
+  assign all_done    = valid_1 & (mark_1 == MARK_ALL | (mark_1 == MARK_BASIC & ~covariance));
 endmodule
 `resetall

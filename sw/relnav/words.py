@@ -53,7 +53,7 @@ LANE_DROP = 25  # low bits of a 70-bit product that lie below the accumulator's 
 LANE_ACC = 48
 LANE_WIDE_ACC = 76  # lane 0, which drops no product bits: 6 bits of headroom for 64 full-scale terms
 LANE_RAW = 9  # low accumulator bits that a raw (not normalised) result leaves out
-RECIPROCAL_NUMERATOR = 64
+RECIPROCAL_NUMERATOR = 61  # 2^61 / |mantissa|: 27 bits behind the point, 9 radix-8 digits
 # A determinant sum below 2^RANK_BITS is rounding noise; below 2^ILL_BITS the conditioning is beyond the
 # arithmetic (full scale: 2^43)
 RANK_BITS = 14

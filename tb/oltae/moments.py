@@ -5,11 +5,13 @@ from __future__ import annotations
 
 import math
 import random
-from collections.abc import Iterator, Sequence
+from collections.abc import Sequence
 from dataclasses import dataclass
 
 from relnav.model import pose_program as pose
-from relnav.model.lane import LaneValue, normalise
+from relnav.model import statistics_program as statistics
+from relnav.model.lane import LaneValue
+from relnav.model.normaliser import Normaliser
 
 Points = list[list[int]]
 
@@ -22,6 +24,7 @@ class Moments:
     b: Points
     w: list[int]
     frac: int
+    variance: LaneValue = (0, 0)
 
 
 def rotation(axis: Sequence[float], angle: float) -> list[list[float]]:
@@ -57,11 +60,21 @@ def random_cloud(rng: random.Random) -> Moments:
         a.append([clip(p[i] + offset[i]) for i in range(3)])
         b.append([clip(sum(r[i][j] * p[j] for j in range(3)) + shift[i] + noise * rng.gauss(0, 1)) for i in range(3)])
     w = [1] * n if rng.random() < 0.5 else [rng.randrange(1, 1 << 16) for _ in range(n)]
-    return Moments(a, b, w, rng.choice([0, 16, -64, 95]))
+    variance = rng.choice([(0, 0), (1 << 33, rng.randint(-60, 20))])
+    return Moments(a, b, w, rng.choice([0, 16, -64, 95]), variance)
 
 
-def items(cloud: Moments) -> Iterator[tuple[int, LaneValue]]:
-    """(address, value) in the order in which the moment stream delivers them."""
+@dataclass(frozen=True)
+class Item:
+    """One item of the moment stream: where it goes, what it is; low limbs come in a second drain."""
+
+    address: int
+    value: LaneValue
+    low: bool = False
+
+
+def items(cloud: Moments) -> list[Item]:
+    """Both drains in the order in which the moment stream delivers them."""
     w, frac = cloud.w, cloud.frac
     total = sum(w)
     columns = [[p[i] for p in points] for i in range(3) for points in (cloud.a, cloud.b)]
@@ -73,23 +86,28 @@ def items(cloud: Moments) -> Iterator[tuple[int, LaneValue]]:
         return total * sum(k * x * y for k, x, y in zip(w, u, v, strict=True)) - first(u) * first(v)
 
     a, b = columns[0::2], columns[1::2]
+    pairs: list[tuple[int, int | None, int | None, int, int]] = []  # slot, place, place of the low limb, value, doubling
     for i in range(3):
         sa, sb = central(a[i], a[i]), central(b[i], b[i])
-        yield 8 * i + pose.KIND_T, normalise(sa + sb, -2 * frac)
-        yield 8 * i + pose.KIND_E, normalise(sa - sb, -2 * frac)
-        yield 8 * i + pose.KIND_B2, normalise(central(b[i], a[i]), 1 - 2 * frac)
+        pairs.append((i, pose.KIND_T, statistics.KIND_T_LOW, sa + sb, 0))
+        pairs.append((i, pose.KIND_E, None, sa - sb, 0))
+        pairs.append((i, pose.KIND_B2, statistics.KIND_B2_LOW, central(b[i], a[i]), 1))
     for i in (0, 2, 1):
         j = (i + 1) % 3
         sa, sb = central(a[i], a[j]), central(b[i], b[j])
         bij, bji = central(b[i], a[j]), central(b[j], a[i])
-        yield 8 * i + pose.KIND_F, normalise(sa + sb, -2 * frac)
-        yield 8 * i + pose.KIND_H, normalise(sa - sb, -2 * frac)
-        yield 8 * i + pose.KIND_P, normalise(bij + bji, -2 * frac)
-        yield 8 * i + pose.KIND_N, normalise(bij - bji, -2 * frac)
-    yield pose.ITEM_W, normalise(total, 0)
-    for i in range(3):
-        yield 8 * i + pose.KIND_MA, normalise(first(a[i]), -frac)
-    for i in range(3):
-        yield pose.ITEM_MB + i, normalise(first(b[i]), -frac)
-    yield pose.ITEM_COUNT, normalise(len(w), 0)
-    yield pose.ITEM_VARIANCE, (0, 0)
+        pairs.append((i, pose.KIND_F, None, sa + sb, 0))
+        pairs.append((i, pose.KIND_H, None, sa - sb, 0))
+        pairs.append((i, pose.KIND_P, statistics.KIND_P_LOW, bij + bji, 0))
+        pairs.append((i, pose.KIND_N, statistics.KIND_N_LOW, bij - bji, 0))
+    normaliser = Normaliser()
+    found = [Item(8 * i + p, normaliser.run(v, False, d - 2 * frac)) for i, p, _, v, d in pairs if p is not None]
+    found.append(Item(pose.ITEM_W, normaliser.run(total)))
+    found += [Item(8 * i + pose.KIND_MA, normaliser.run(first(a[i]), False, -frac)) for i in range(3)]
+    found += [Item(pose.ITEM_MB + i, normaliser.run(first(b[i]), False, -frac)) for i in range(3)]
+    found.append(Item(pose.ITEM_COUNT, normaliser.run(len(w))))
+    found.append(Item(pose.ITEM_VARIANCE, cloud.variance))
+    for i, _, p, v, d in pairs:
+        value = normaliser.run(v, True, d - 2 * frac)
+        found.append(Item(8 * i + p if p is not None else -1, value, low=True))
+    return found

@@ -12,7 +12,7 @@ from dataclasses import dataclass, field
 
 LATENCY = 8  # last slot -> first slot that can read the result
 RAW_LATENCY = 6  # the same for a raw result, which skips normalisation
-RECIPROCAL_LATENCY = 12  # readable dot result -> readable reciprocal
+RECIPROCAL_LATENCY = 11  # readable dot result -> readable reciprocal
 STREAM = 32  # X addresses from here on are the moment stream's bank
 
 ALL = frozenset({0, 1, 2, 3})

@@ -7,6 +7,7 @@ from collections.abc import Iterator
 
 from relnav import words
 from relnav.model import pose_program as pose
+from relnav.model import statistics_program as statistics
 from relnav.model.binary32 import from_binary32
 from relnav.model.butterfly import Butterfly, role
 from relnav.model.centring import Centring
@@ -21,6 +22,12 @@ from relnav.result import FLAG_NAMES
 
 # lane of a pair -> place in its slot's block of the stream bank
 KIND_OF_LANE = (pose.KIND_T, pose.KIND_E, pose.KIND_B2, pose.KIND_F, pose.KIND_H, pose.KIND_P, pose.KIND_N)
+LOW_KIND_OF_LANE = {
+    0: statistics.KIND_T_LOW,
+    2: statistics.KIND_B2_LOW,
+    5: statistics.KIND_P_LOW,
+    6: statistics.KIND_N_LOW,
+}
 MAX_POINTS = (1 << words.COUNT) - 1
 
 
@@ -37,26 +44,27 @@ class OltaeCore:
         self.words = words.build(weighted)
         self.program = scheduled()
 
-    def items(self, frame: QuantisedFrame, config: CoreConfig) -> Iterator[tuple[int, LaneValue]]:
-        """(stream address, value) in the order of the moment stream."""
+    def items(self, frame: QuantisedFrame, config: CoreConfig) -> Iterator[tuple[int, LaneValue, bool]]:
+        """(stream address, value, low) of both drains, in the order of the moment stream."""
         gram = GramArray(self.weighted)
         gram.add(frame.a, frame.b, frame.w if self.weighted else None)
         centring, butterfly, normaliser = Centring(self.words), Butterfly(self.words), Normaliser()
-        for pair in gram.drain():
-            centred = centring.run(gram.weight_sum, pair.moment, pair.first_i, pair.first_j)
-            for tag, value in butterfly.push(role(pair.lane), centred, (pair.slot, pair.lane)):
-                slot, lane = tag  # type: ignore[misc]
-                scale = -2 * frame.frac + (lane == 2)
-                yield 8 * slot + KIND_OF_LANE[lane], normaliser.run(value, False, scale)
+        for low in (False, True):
+            for pair in gram.drain():
+                centred = centring.run(gram.weight_sum, pair.moment, pair.first_i, pair.first_j)
+                for tag, value in butterfly.push(role(pair.lane), centred, (pair.slot, pair.lane)):
+                    slot, lane = tag  # type: ignore[misc]
+                    kind = LOW_KIND_OF_LANE.get(lane) if low else KIND_OF_LANE[lane]
+                    if kind is not None:
+                        yield 8 * slot + kind, normaliser.run(value, low, (lane == 2) - 2 * frame.frac), low
         first = [m + (gram.weight_sum << 15) for m in gram.first_moments]
-        yield pose.ITEM_W, normaliser.run(gram.weight_sum)
-        for axis in range(3):
-            yield 8 * axis + pose.KIND_MA, normaliser.run(first[2 * axis], False, -frame.frac)
-        for axis in range(3):
-            yield pose.ITEM_MB + axis, normaliser.run(first[2 * axis + 1], False, -frame.frac)
-        yield pose.ITEM_COUNT, normaliser.run(gram.point_count)
-        mantissa, exponent = from_binary32(config.variance_word(frame.weight_scale))
-        yield pose.ITEM_VARIANCE, normaliser.run(mantissa, False, exponent)
+        values = [(pose.ITEM_W, gram.weight_sum, 0)]
+        values += [(8 * axis + pose.KIND_MA, first[2 * axis], -frame.frac) for axis in range(3)]
+        values += [(pose.ITEM_MB + axis, first[2 * axis + 1], -frame.frac) for axis in range(3)]
+        values.append((pose.ITEM_COUNT, gram.point_count, 0))
+        values.append((pose.ITEM_VARIANCE, *from_binary32(config.variance_word(frame.weight_scale))))
+        for address, value, scale in values:
+            yield address, normaliser.run(value, False, scale), False
 
     def refused(self, frame: QuantisedFrame) -> int:
         """Flags of a frame that is not solved, 0 for one that is."""
@@ -77,8 +85,8 @@ class OltaeCore:
         if flags:
             return RawResult(flags=flags)
         solver = Solver(forbid_turns=config.forbid_turns)
-        for address, value in self.items(frame, config):
-            solver.load(address, value)
+        for address, value, low in self.items(frame, config):
+            solver.hold(address, value, low)
         solver.run(self.program)
         if solver.rank_deficient:
             return RawResult(flags=flag("RANK_DEFICIENT"))

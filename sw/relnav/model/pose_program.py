@@ -121,8 +121,8 @@ def moment_matrix() -> list[Dot]:
         off_diagonal(*third),
         off_diagonal(*second),
         cross(*third),
-        cross(*second),
         weight,
+        cross(*second),
         cross(*first),
     ]
 

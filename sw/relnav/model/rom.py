@@ -3,10 +3,12 @@
 from __future__ import annotations
 
 import sys
+from dataclasses import dataclass
 from pathlib import Path
 
 from relnav.model import assembler as asm
 from relnav.model import pose_program as pose
+from relnav.model import statistics_program as statistics
 from relnav.model.schedule import Scheduler
 
 # name, width; most significant first. Slot fields belong to each term, result fields to a dot product's last slot.
@@ -19,12 +21,14 @@ SLOT_FIELDS = (
     ("negate", 4),
     ("enable", 4),
     ("first", 1),
-    ("reference", 3),
+    ("only_estimated", 1),
+    ("reference_code", 4),
 )
 RESULT_FIELDS = (
     ("last", 1),
     ("kind", 2),
     ("half", 1),
+    ("clamp", 1),
     ("write", 2),
     ("source", 3),
     ("dest", 5),
@@ -34,13 +38,15 @@ RESULT_FIELDS = (
     ("track", 2),
     ("divide", 2),
     ("divide_dest", 5),
-    ("result_output", 2),
+    ("result_output", 3),
     ("output_index", 6),
-    ("mark", 2),
+    ("mark", 3),
 )
 FIELDS = SLOT_FIELDS + RESULT_FIELDS
 WIDTH = sum(width for _, width in FIELDS)
-MARKS = {"": 0, "q": 1, "pose": 2, "all": 3}
+ADDRESS = 10  # bits of a ROM address
+DRAIN_EARLIEST = 14  # cycles from `redrain` during which none of its items comes
+MARKS = {"": 0, "q": 1, "pose": 2, "basic": 3, "all": 4}
 
 
 def mask(lanes: frozenset[int]) -> int:
@@ -62,13 +68,15 @@ def slot_words(dot: asm.Dot) -> list[int]:
             "negate": mask(term.negate),
             "enable": mask(term.enable),
             "first": number == 0,
-            "reference": dot.reference,
+            "only_estimated": term.only_estimated,
+            "reference_code": dot.reference,
         }
         if last:
             values |= {
                 "last": 1,
                 "kind": dot.kind,
                 "half": dot.half,
+                "clamp": dot.clamp,
                 "write": dot.write,
                 "source": dot.source,
                 "dest": dot.dest,
@@ -91,20 +99,56 @@ def slot_words(dot: asm.Dot) -> list[int]:
     return words
 
 
-def scheduled() -> list[asm.Dot]:
-    """The pose program with its cycles."""
-    return Scheduler(pose.arrival(), pose.references()).run(pose.program())
+DRAIN_LATENCY = 17
+"""Cycles from `redrain` to its first item, at most (15 in the lean build)."""
+
+
+@dataclass(frozen=True)
+class Program:
+    """The whole program, scheduled, and the cycle in which it asks for the second drain."""
+
+    dots: list[asm.Dot]
+    redrain: int
+    basic: int
+    """Number of dot products without the covariances."""
+
+    def addresses(self) -> list[int]:
+        """ROM address of each dot product: idle cycles take a place, the second pass of a probed one does not."""
+        found, address, cycle = [], 0, 0
+        for dot in self.dots:
+            address += dot.cycle - cycle
+            found.append(address)
+            address += len(dot.terms)
+            cycle = dot.end + 1
+        return found
+
+
+def scheduled() -> Program:
+    """Pose, statistics and covariances in one schedule."""
+    scheduler = Scheduler(pose.arrival(), pose.references())
+    dots = scheduler.run(pose.program())
+    # the low limbs may not come before the items whose places they take have been read
+    last_use = max(dot.end for dot in dots if dot.name.startswith("ca"))
+    redrain = last_use + 1 - DRAIN_EARLIEST
+    scheduler.ready |= statistics.arrival(redrain + DRAIN_LATENCY)
+    dots += scheduler.run(statistics.program(covariance=True))
+    return Program(dots, redrain, len(pose.program()) + len(statistics.program(covariance=False)))
 
 
 def verilog() -> str:
     """Text of solve_program.v."""
-    dots = scheduled()
+    program = scheduled()
+    addresses = program.addresses()
     lines = {}
-    for dot in dots:
-        for number, word in enumerate(slot_words(dot)):
-            note = f"{dot.name} {number + 1}/{len(dot.terms)}"
-            lines[dot.cycle + number] = f"      9'd{dot.cycle + number}: word <= {WIDTH}'h{word:x};  // {note}"
-    end = dots[-1].end
+    for number, (dot, start) in enumerate(zip(program.dots, addresses, strict=True)):
+        for slot, word in enumerate(slot_words(dot)):
+            note = f"{dot.name} {slot + 1}/{len(dot.terms)}"
+            value = f"{WIDTH}'h{word:x}"
+            if number >= program.basic:
+                value = f"COVARIANCE != 0 ? {value} : {WIDTH}'d0"
+            lines[start + slot] = f"      {ADDRESS}'d{start + slot}: word <= {value};  // {note}"
+    end = max(lines)
+    assert end < 1 << ADDRESS
     ports = "\n".join(
         f"    output wire {f'[{width - 1}:0] ' if width > 1 else ''}{name}," for name, width in FIELDS
     )
@@ -116,26 +160,31 @@ def verilog() -> str:
         assigns.append(f"  assign {name} = word[{span}];")
     body = "\n".join(lines[key] for key in sorted(lines))
     return f"""// SPDX-License-Identifier: Apache-2.0
-// Microprogram of the solve engine. Written by `python -m relnav.model.rom` from sw/relnav/model/pose_program.py: do not edit.
+// Microprogram of the solve engine. Written by `python -m relnav.model.rom` from sw/relnav/model/pose_program.py and
+// statistics_program.py: do not edit.
 //
-// The word of cycle c is at the outputs in cycle c when `counter` was c one clock earlier. Cycle 0 is the one in which the
-// first moment item arrives. Fields after `reference` belong to the dot product that ends with the slot.
+// The word at `address` is at the outputs a clock later; none while `run` is low. Fields after `reference_code` belong to the dot
+// product that ends with the slot. `redrain` asks for the low limbs of the moments.
 `resetall
 `default_nettype none
-module solve_program (
+module solve_program #(
+    parameter COVARIANCE = 1
+) (
     input  wire       clk,
     input  wire       run,
-    input  wire [8:0] counter,
+    input  wire [{ADDRESS - 1}:0] address,
 {ports}
+    output wire       redrain,
     output wire       finished
 );
   reg [{WIDTH - 1}:0] word;
   always @(posedge clk)
-    case (run ? counter : 9'd511)
+    case (run ? address : {{{ADDRESS}{{1'b1}}}})
 {body}
       default: word <= {WIDTH}'d0;
     endcase
-  assign finished = counter == 9'd{end + 1};
+  assign redrain = run & address == {ADDRESS}'d{program.redrain};
+  assign finished = address == {ADDRESS}'d{end + 1};
 {chr(10).join(assigns)}
 endmodule
 `resetall

@@ -24,7 +24,7 @@ from relnav.model.assembler import (
     Dot,
 )
 
-DIVIDER_BUSY = 12  # cycles from one start to the next
+DIVIDER_BUSY = 11  # cycles from one start to the next
 # references that a tracked scale enters
 SCALED = {
     TRACK_QUATERNION: (REF_QUATERNION, REF_ROTATED),
@@ -32,7 +32,7 @@ SCALED = {
 }
 # places of the queue that an output fills: lane 0 alone, or lanes 1 to 3
 OUTPUT_PLACES = {SINGLE: (0,), TRIPLE: (0, 1, 2), TRIPLE_COLUMN: (0, 1, 2), PAIR: (1, 2), THIRD: (2,)}
-FIXED_STORE, FLOAT_STORE = 6, 10  # last slot -> cycle of the (first) result memory write
+FIXED_STORE, FLOAT_STORE = 6, 9  # last slot -> cycle of the (first) result memory write
 
 
 def addresses(address: int, by_lane: bool, enabled: Iterable[int]) -> set[int]:

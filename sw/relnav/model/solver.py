@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable
 from dataclasses import dataclass, field
 
 from relnav import words
@@ -11,6 +10,7 @@ from relnav.model import pose_program as pose
 from relnav.model.binary32 import to_binary32
 from relnav.model.lane import ONE, ZERO, DotLane, LaneValue
 from relnav.model.reciprocal import reciprocal
+from relnav.model.rom import DRAIN_LATENCY, Program
 from relnav.model.schedule import OUTPUT_PLACES
 
 LANES = 4
@@ -31,6 +31,7 @@ class Solver:
     centroid_scale: int = EXPONENT_FLOOR
     determinant: int = 0
     estimated: bool = True
+    low_limbs: list[tuple[int, LaneValue]] = field(default_factory=list)
     outputs: dict[int, LaneValue] = field(default_factory=dict)
     fixed_outputs: dict[int, int] = field(default_factory=dict)
     saturated: bool = False
@@ -131,14 +132,22 @@ class Solver:
             for place in OUTPUT_PLACES[dot.output]:
                 self.outputs[dot.output_index + stride * place] = values[place + 1]
 
-    def load_low(self, address: int, value: LaneValue) -> None:
-        """A low limb of the second drain arrives, in the place of an item that is no longer needed."""
-        for bank in self.registers:
-            bank[asm.STREAM + address] = value
+    def hold(self, address: int, value: LaneValue, low: bool = False) -> None:
+        """An item for `run`: of the first drain, or a low limb of the second, which replaces an item no longer needed."""
+        if low:
+            self.low_limbs.append((address, value))
+        else:
+            self.load(address, value)
 
-    def run(self, program: Iterable[asm.Dot]) -> None:
+    def run(self, program: Program) -> None:
         """The program in issue order; the schedule proves that the pipelined engine does the same."""
-        for dot in program:
+        pending = True
+        for dot in program.dots:
+            if pending and dot.cycle > program.redrain + DRAIN_LATENCY:
+                pending = False
+                for address, value in self.low_limbs:
+                    for bank in self.registers:
+                        bank[asm.STREAM + address] = value
             self.execute(dot)
 
     @property

@@ -44,6 +44,16 @@ QP = (1, 2, 3)  # q^T P_theta
 L_ROW, LQ = (21, 22, 23), 20  # L P_theta (row private), its product with q
 
 
+def arrival(start: int) -> dict[int, int]:
+    """First cycle in which each low limb can be read, the first of the 21 items of the second drain being due at start."""
+    order: list[int | None] = []
+    for slot in (0, 1, 2):
+        order += [item(slot, KIND_T_LOW), None, item(slot, KIND_B2_LOW)]
+    for slot in (0, 2, 1):
+        order += [None, None, item(slot, KIND_P_LOW), item(slot, KIND_N_LOW)]
+    return {address: start + place + 1 for place, address in enumerate(order) if address is not None}
+
+
 def epsilon(i: int, k: int) -> tuple[int, int]:
     """[x cross]_ik = sign * x_l: (sign, l) for i != k in 1..3."""
     other = i ^ k

@@ -15,7 +15,7 @@ import re
 import shutil
 import sys
 import tempfile
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterator, Mapping, Sequence
 from pathlib import Path
 from typing import Any
 
@@ -42,13 +42,14 @@ def run_frames(
     *,
     waves: Path | None = None,
     feed: str = "stream",
+    parameters: Mapping[str, int] | None = None,
     timeout: float = 3600.0,
 ) -> list[RawResult]:
     """The register words that oltae_top leaves for each frame; they run back to back, without a reset.
 
     simulator: "icarus" or "verilator". rtl_dir: another copy of rtl/. waves: where to leave the waveform
     (default: the environment's RELNAV_WAVES; the suffix becomes .vcd where FST cannot be written).
-    feed: "stream" or "registers". timeout: seconds of simulation.
+    feed: "stream" or "registers". parameters: of oltae_top, such as {"WEIGHTED": 0}. timeout: seconds.
     Raises BackendError: simulator missing, RTL that does not compile, a core that gives no result.
     """
     if not frames:
@@ -68,6 +69,7 @@ def run_frames(
                 sources,
                 BENCH,
                 simulator=simulator,
+                parameters=parameters,
                 waves=waves or False,
                 includes=[rtl / "include"],
                 env={"RELNAV_JOB": str(folder)},
