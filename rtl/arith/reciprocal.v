@@ -2,7 +2,7 @@
 // Reciprocal of a lane value by signed radix-8 division (SRT, digits -4..4).
 //
 //   1 / (m 2^e) = +-floor(2^N / |m|) 2^PAD * 2^(-e - 66), |m| in [2^33, 2^34], N = 66 - PAD = 31 + 3 DIGITS
-//   1 / 0 gives mantissa 2^33, exponent 2000: overflows binary32 and saturates Q15.16
+//   1 / 0 gives mantissa 2^33, exponent 1200: overflows binary32 and saturates Q15.16
 //
 //   r_0 = 2^31, r_(n+1) = 8 r_n - v_n m, v_n = 8 r_n / m rounded: |r| <= 4/7 |m|
 //
@@ -77,7 +77,7 @@ module reciprocal (
         triple   <= 37'h600000000;
         five     <= 14'd5 << 9;
         seven    <= 14'd7 << 9;
-        exponent <= 12'd2000;
+        exponent <= 12'd1200;
       end else begin
         divisor  <= value[34:0];
         triple   <= {{2{value[34]}}, value[34:0]} + {value[34], value[34:0], 1'b0};

@@ -95,6 +95,7 @@ class OltaeCore:
         if solver.saturated:
             flags |= flag("Q_SATURATED")
         found = solver.words()
-        results = results_from_words([found.get(index, 0) for index in range(64)])
+        wanted = config.covariance and self.weighted  # the lean build has no covariances
+        results = results_from_words([found.get(index, 0) for index in range(64)], covariance=wanted)
         total = int(frame.w.sum()) if frame.w is not None and self.weighted else frame.n
         return RawResult(points=frame.n, weight=total, turn=solver.turn, flags=flags, **results)  # type: ignore[arg-type]

@@ -3,7 +3,7 @@
 With S = sum w (b+a)(b+a)^T of the points turned by the lane's half turn d = diag(+-1), M = tr(S) I - S,
 z = sum w (s x y) (halved here, and D with it): C = adj M, D = det M, N = -C z, p = (D, N) is the unnormalised
 quaternion of the lane's turn; undoing the turn permutes it: P_c = +-p_(c XOR lane).
-R = 2 (p p^T + p0^2-part)/|p|^2 - I, t = (m_b + m_a)/W - (2/|p|^2) A m_a/W, A_im = p_i p_m -+ p_0 p_k.
+R = 2 A/|p|^2 - I, A_im = p_i p_m -+ p_0 p_k, A_mm = p_m^2 + p_0^2; t = m_b/W - R m_a/W.
 """
 
 from __future__ import annotations
@@ -30,6 +30,7 @@ RECIPROCAL_NORM = 20
 CA = 24  # [., ca1, ca2, ca3]
 CB = 28  # [., cb1, cb2, cb3]
 U = 24
+HALF_NORM = 24  # |p|^2 / 2, until u takes its place
 A = 0  # A_m at A + m, over z
 
 ROWS = lanes(1, 2, 3)  # lane = matrix row
@@ -227,47 +228,50 @@ def norm() -> Dot:
         [Term(P + c, P + c) for c in range(4)],
         half=True,
         reference=asm.REF_QUATERNION,
-        write=asm.NO_WRITE,
+        write=asm.BROADCAST,
         source=0,
+        dest=HALF_NORM,
         divide=asm.DIVIDE,
         divide_dest=RECIPROCAL_NORM,
     )
 
 
 def rotation_numerators() -> list[Dot]:
-    """A_im of row i = lane."""
+    """A_im of row i = lane: R_im = 2 A_im/|p|^2 - delta_im.
+
+    Column 1, which leaves first, has its delta inside already, as -|p|^2/2: its last slot is one earlier.
+    """
     minus = {1: lanes(2), 2: lanes(3), 3: lanes(1)}
-    return [
-        Dot(
-            f"A{m}",
-            [
-                Term(P, P + m, enable=ROWS, x_by_lane=True),
-                Term(P, P + m, negate=minus[m], enable=ROWS, y_by_lane=True),
-            ],
-            reference=asm.REF_QUATERNION,
-            dest=A + m,
-        )
-        for m in (1, 2, 3)
-    ]
+
+    def column(m: int, delta: list[Term]) -> Dot:
+        terms = [
+            Term(P, P + m, enable=ROWS, x_by_lane=True),
+            Term(P, P + m, negate=minus[m], enable=ROWS, y_by_lane=True),
+        ]
+        return Dot(f"A{m}", terms + delta, reference=asm.REF_QUATERNION, dest=A + m)
+
+    return [column(2, []), column(3, []), column(1, [Term(HALF_NORM, ONE, negate=ALL, enable=lanes(1))])]
 
 
 def pose_outputs() -> list[Dot]:
     """R by column, t."""
-    rotation = [
-        Dot(
-            f"R{m}",
-            [Term(A + m, RECIPROCAL_NORM, enable=ROWS), Term(ONE, ONE, negate=ALL, enable=lanes(m))],
-            reference=asm.REF_UNIT,
-            write=asm.NO_WRITE,
-            output=asm.TRIPLE_COLUMN,
-            output_index=6 + m - 1,
+    rotation = []
+    for m in (1, 2, 3):
+        delta = [Term(ONE, ONE, negate=ALL, enable=lanes(m))] if m != 1 else []
+        rotation.append(
+            Dot(
+                f"R{m}",
+                [Term(A + m, RECIPROCAL_NORM, enable=ROWS), *delta],
+                reference=asm.REF_UNIT,
+                write=asm.NO_WRITE,
+                output=asm.TRIPLE_COLUMN,
+                output_index=6 + m - 1,
+            )
         )
-        for m in (1, 2, 3)
-    ]
     translation = Dot(
         "t",
         [
-            Term(CA, ONE, enable=ROWS, x_by_lane=True),
+            Term(CA, ONE, enable=lanes(2, 3), x_by_lane=True),
             Term(CB, ONE, enable=ROWS, x_by_lane=True),
             Term(U, RECIPROCAL_NORM, negate=ALL, enable=ROWS),
         ],
@@ -282,7 +286,7 @@ def pose_outputs() -> list[Dot]:
 
 def rotated_centroid() -> Dot:
     """u = A m_a/W by row."""
-    return Dot("u", [Term(CA + m, A + m, enable=ROWS) for m in (1, 2, 3)], reference=asm.REF_ROTATED, dest=U)
+    return Dot("u", [Term(CA + m, A + m, enable=ROWS) for m in (2, 3, 1)], reference=asm.REF_ROTATED, dest=U)
 
 
 def rodrigues() -> list[Dot]:

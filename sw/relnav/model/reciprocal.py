@@ -6,7 +6,8 @@ from relnav import words
 from relnav.model.lane import LaneValue
 
 PAD = 5
-HUGE: LaneValue = (1 << (words.MANT - 2), 2000)  # stands for 1/0: overflows binary32 and saturates Q15.16
+# Stands for 1/0: overflows binary32 and saturates Q15.16, and keeps the exponent of q (600 below to 714 above) in its 12 bits.
+HUGE: LaneValue = (1 << (words.MANT - 2), 1200)
 
 
 def reciprocal(value: LaneValue) -> LaneValue:

@@ -92,7 +92,7 @@ def residual() -> list[Dot]:
     dots = [
         probed(
             f"c{i}",
-            [Term(pose.U, RECIPROCAL_NORM), Term(CA + i, ONE, negate=ALL)],
+            [Term(pose.U, RECIPROCAL_NORM), Term(CA + i, ONE, negate=ALL, enable=lanes(2, 3))],
             write=asm.BROADCAST,
             source=i,
             dest=ROTATED + i,

@@ -10,8 +10,8 @@ import pytest
 from relnav.model.butterfly import Butterfly, Role, role
 from relnav.words import FULL, LEAN, Build
 
+from tb.common.replay import run
 from tb.common.vectors import corners, pack, random_value
-from tb.gram.replay import run
 
 TAG = 8
 LATENCY = 4  # from the flags
@@ -66,7 +66,7 @@ def test_butterfly_matches_the_model(words: Build, simulator: str, tmp_path: Pat
             push(Role.PLAIN if kind < 0.8 else None, operand())
     parameters = {"LOW": low, "HIGH": bits - low, "TAG": TAG}
     top = Path(__file__).parent / "butterfly_replay.v"
-    got = run(top, simulator, tmp_path, stimulus, sum(in_widths), [TAG, bits], parameters)
+    got = run(top, ["gram"], simulator, tmp_path, stimulus, sum(in_widths), [TAG, bits], parameters)
     assert len(got) == len(expected)
     for mine, theirs in zip(got, expected, strict=True):
         assert mine == theirs

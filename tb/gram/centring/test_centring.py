@@ -11,8 +11,8 @@ import pytest
 from relnav.model.centring import Centring
 from relnav.words import FULL, LEAN, Build
 
+from tb.common.replay import run
 from tb.common.vectors import corners, pack, random_value
-from tb.gram.replay import run
 
 TAG = 8
 Operands = tuple[int, int, int, int]
@@ -75,7 +75,7 @@ def test_centring_matches_the_model(words: Build, simulator: str, tmp_path: Path
     parameters = {"W": words.W, "M1": words.M1, "M2": words.M2, "CENTRED": words.CENTRED, "TAG": TAG}
     parameters |= {"LOW": 48, "LATENCY": 4} if words is LEAN else {"LOW": 64, "LATENCY": 5}
     top = Path(__file__).parent / "centring_replay.v"
-    got = run(top, simulator, tmp_path, stimulus, sum(in_widths), [TAG, words.CENTRED], parameters)
+    got = run(top, ["gram"], simulator, tmp_path, stimulus, sum(in_widths), [TAG, words.CENTRED], parameters)
     assert len(got) == len(expected)
     for mine, theirs in zip(got, expected, strict=True):
         assert mine == theirs

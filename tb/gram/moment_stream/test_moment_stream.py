@@ -13,8 +13,8 @@ from relnav.model.centring import Centring
 from relnav.model.normaliser import Normaliser
 from relnav.words import FULL, LEAN, Build
 
+from tb.common.replay import run
 from tb.common.vectors import corners, pack, random_value
-from tb.gram.replay import run
 
 TAG = 6  # {value, slot, lane}
 FIELDS = (
@@ -112,7 +112,16 @@ def test_moment_stream_matches_the_models(
         scenario.drain(0.0 if number % 2 else 0.3)
     parameters = {"W": words.W, "M1": words.M1, "M2": words.M2, "CENTRED": words.CENTRED, "VALUE": value_bits}
     top = Path(__file__).parent / "moment_stream_replay.v"
-    got = run(top, simulator, tmp_path, scenario.stimulus, sum(scenario.widths), [TAG, 1, 35, 12], parameters)
+    got = run(
+        top,
+        ["gram"],
+        simulator,
+        tmp_path,
+        scenario.stimulus,
+        sum(scenario.widths),
+        [TAG, 1, 35, 12],
+        parameters,
+    )
     assert len(got) == len(scenario.expected)
     for mine, theirs in zip(got, scenario.expected, strict=True):
         assert mine == theirs

@@ -11,8 +11,8 @@ import pytest
 from relnav.model.normaliser import Normaliser
 from relnav.words import FULL, LEAN, MANT, Build
 
+from tb.common.replay import run
 from tb.common.vectors import corners, pack, random_value
-from tb.gram.replay import run
 
 TAG = 8
 LATENCY = 3
@@ -50,7 +50,7 @@ def test_normaliser_matches_the_model(words: Build, simulator: str, tmp_path: Pa
             stimulus.append(pack(zip([1, low, tag, scale, value], in_widths, strict=True)))
     top = Path(__file__).parent / "normaliser_replay.v"
     parameters = {"BITS": bits, "TAG": TAG}
-    got = run(top, simulator, tmp_path, stimulus, sum(in_widths), [TAG, 1, 35, 12], parameters)
+    got = run(top, ["gram"], simulator, tmp_path, stimulus, sum(in_widths), [TAG, 1, 35, 12], parameters)
     assert len(got) == len(expected)
     for mine, theirs in zip(got, expected, strict=True):
         assert mine == theirs

@@ -112,7 +112,9 @@ class Bench:
         """Do something with the driver."""
         return await bridge(work)(self.driver)
 
-    async def solve(self, frame: QuantisedFrame, config: CoreConfig | None = None, feed: Feed = "stream") -> RawResult:
+    async def solve(
+        self, frame: QuantisedFrame, config: CoreConfig | None = None, feed: Feed = "stream"
+    ) -> RawResult:
         """Run a frame, compare everything with the model, remember what stands in the registers."""
         config = config or CoreConfig(covariance=FULL)
         polls = 500 + frame.n
@@ -125,7 +127,9 @@ class Bench:
         assert got.cycles_q is not None and got.cycles_pose is not None and got.cycles_all is not None
         assert 0 < got.cycles_q < got.cycles_pose <= got.cycles_all
         if feed == "stream":
-            for name, counted in zip(("q", "pose", "all"), (got.cycles_q, got.cycles_pose, got.cycles_all), strict=True):
+            for name, counted in zip(
+                ("q", "pose", "all"), (got.cycles_q, got.cycles_pose, got.cycles_all), strict=True
+            ):
                 assert self.events[f"{name}_ready"] - self.events["last"] - 1 == counted, name
         wrong = differences(got, expected)
         assert not wrong, f"{wrong} of {tell(frame, config)}"
@@ -226,7 +230,9 @@ async def every_flag(dut: Any) -> None:
         cases.append(("FEW_POINTS", QuantisedFrame(a, b, None, 0), plain))
     cases.append(("RANK_DEFICIENT", QuantisedFrame(line, line + 5, None, 3), plain))
     cases.append(("RANK_DEFICIENT", QuantisedFrame(spot, spot, None, 3), plain))
-    cases.append(("RANK_DEFICIENT", QuantisedFrame(cloud, turned, None, 20), replace(plain, forbid_turns=True)))
+    cases.append(
+        ("RANK_DEFICIENT", QuantisedFrame(cloud, turned, None, 20), replace(plain, forbid_turns=True))
+    )
     cases.append(("Q_SATURATED", QuantisedFrame(cloud, turned, None, 20), plain))
     cases.append(("Q_SATURATED", QuantisedFrame(cloud, nearly, None, 20), plain))
     thin = cloud >> [0, 11, 11]
@@ -241,7 +247,11 @@ async def every_flag(dut: Any) -> None:
         assert name in got.flag_names, (name, got.flag_names)
         await raised_and_cleared(bench, set(got.flag_names))
 
-    for beats, name in ((cut(good(rng), -1), "BAD_TLAST"), (cut(good(rng), -2), "BAD_TLAST"), (cut(good(rng), 1), "BAD_TLAST")):
+    for beats, name in (
+        (cut(good(rng), -1), "BAD_TLAST"),
+        (cut(good(rng), -2), "BAD_TLAST"),
+        (cut(good(rng), 1), "BAD_TLAST"),
+    ):
         ticket = await bench.drive(lambda d, b=beats: configured(d).feed(b))
         assert not await bench.drive(lambda d, t=ticket: d.wait(t, 200))
         await raised_and_cleared(bench, {name})
@@ -482,7 +492,9 @@ async def reading_does_not_disturb(dut: Any) -> None:
     bench = await Bench(dut, 6).begin()
     rng = bench.rng
     results = range(Oltae.Q.ADDRESS, Oltae.Q.ADDRESS + 4 * RESULT_WORDS, 4)
-    others = [r.ADDRESS for r in (Oltae.STATUS, Oltae.POINTS, Oltae.WEIGHT, Oltae.TURN, Oltae.CYCLES_Q, Oltae.FLAGS)]
+    others = [
+        r.ADDRESS for r in (Oltae.STATUS, Oltae.POINTS, Oltae.WEIGHT, Oltae.TURN, Oltae.CYCLES_Q, Oltae.FLAGS)
+    ]
     allowed = [{word} for word in bench.last.result_words()]
     reads = 0
 

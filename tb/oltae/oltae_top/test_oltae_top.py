@@ -36,7 +36,9 @@ def test_ports(build: str, simulator: str) -> None:
     )
 
 
-def check(frames: list[QuantisedFrame], got: list[RawResult], config: CoreConfig, *, weighted: bool = True) -> None:
+def check(
+    frames: list[QuantisedFrame], got: list[RawResult], config: CoreConfig, *, weighted: bool = True
+) -> None:
     """Bit for bit the model's; one latency each for weighted and unweighted frames."""
     model = OltaeCore(weighted=weighted)
     cycles: dict[bool, set[tuple[int | None, ...]]] = {False: set(), True: set()}
@@ -44,7 +46,9 @@ def check(frames: list[QuantisedFrame], got: list[RawResult], config: CoreConfig
         expected = model.run(frame, config)
         if not expected.failed:
             cycles[frame.w is not None].add((result.cycles_q, result.cycles_pose, result.cycles_all))
-            expected = replace(expected, q_cov=result.q_cov and expected.q_cov, t_cov=result.t_cov and expected.t_cov)
+            expected = replace(
+                expected, q_cov=result.q_cov and expected.q_cov, t_cov=result.t_cov and expected.t_cov
+            )
         plain = replace(result, cycles_q=None, cycles_pose=None, cycles_all=None)
         assert plain == expected, f"frame {number}, n {frame.n}, frac {frame.frac}"
     assert all(len(found) <= 1 for found in cycles.values()), cycles
@@ -72,7 +76,12 @@ def test_longest_frames(build: str) -> None:
         frames.insert(2, random_frame(rng, LONGEST, True, "random"))
         frames.append(QuantisedFrame(corner, corner, heaviest, -64))
     config = CoreConfig(covariance=full)
-    check(frames, run_frames(frames, "verilator", config=config, parameters=BUILDS[build]), config, weighted=full)
+    check(
+        frames,
+        run_frames(frames, "verilator", config=config, parameters=BUILDS[build]),
+        config,
+        weighted=full,
+    )
 
 
 @pytest.mark.parametrize("feed", ["stream", "registers"])

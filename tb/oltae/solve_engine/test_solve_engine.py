@@ -7,12 +7,12 @@ import random
 from pathlib import Path
 
 import pytest
-
 from relnav.model.lane import LaneValue
 from relnav.model.rom import DRAIN_LATENCY, scheduled
 from relnav.model.solver import Solver
+
+from tb.common.replay import run
 from tb.common.vectors import pack
-from tb.gram.replay import run
 from tb.oltae.moments import items, random_cloud
 
 PERIOD = 900  # cycles from one frame's first item to the next one's
@@ -52,7 +52,7 @@ def test_solve_engine_matches_the_model(frames: int, simulator: str, tmp_path: P
         expected.append(solver)
         stimulus += frame
     top = Path(__file__).parent / "solve_engine_replay.v"
-    rows = run(top, simulator, tmp_path, stimulus, 57, WIDTHS, {})
+    rows = run(top, ["arith", "oltae"], simulator, tmp_path, stimulus, 57, WIDTHS, {})
     for number, solver in enumerate(expected):
         got: dict[int, int] = {}
         marks = [0, 0, 0]

@@ -14,6 +14,7 @@ HERE = Path(__file__).parent
 
 def run(
     top: Path,
+    folders: Sequence[str],
     simulator: str,
     folder: Path,
     stimulus: Sequence[int],
@@ -21,13 +22,16 @@ def run(
     out_widths: Sequence[int],
     parameters: Mapping[str, int],
 ) -> list[tuple[int, list[int]]]:
-    """Play `stimulus` through the wrapper `top`; returns (cycle, unsigned fields after the valid bit)."""
+    """Play `stimulus` through the wrapper `top`, whose device is made of `folders` of rtl/.
+
+    Returns (cycle, unsigned fields after the valid bit) of every result.
+    """
     write_hex(folder / "stimulus.hex", stimulus, in_bits)
     plusargs = [f"+stimulus={folder}/stimulus.hex", f"+cycles={len(stimulus)}"]
     plusargs += [f"+results={folder}/results.hex"]
     build_and_test(
         top.stem,
-        [*sources("gram", "arith", "oltae"), HERE / "replay.v", top],
+        [*sources(*folders), HERE / "replay.v", top],
         "replay_bench",
         simulator=simulator,
         parameters=parameters,

@@ -1,0 +1,139 @@
+# SPDX-License-Identifier: Apache-2.0
+"""The simulated backend as a user meets it: one JSON object, one line for what goes wrong, a waveform when asked."""
+
+from __future__ import annotations
+
+import json
+import shutil
+import subprocess
+import sys
+from collections.abc import Callable
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+from relnav.errors import BackendError
+from relnav.frames import make_frame
+from relnav.quantise import quantise
+from relnav.rtlsim import run_frames
+from sim.runner import RTL, missing
+
+pytestmark = pytest.mark.skipif(missing("icarus") is not None, reason=str(missing("icarus")))
+A = np.random.default_rng(1).normal(size=(5, 3))
+FRAME = quantise(make_frame(A, A + 1.0))
+
+
+def test_json_is_one_object(tmp_path: Path, simulator: str) -> None:
+    rows = [",".join(map(str, [*p, *(p + 1.0), k])) for k in (0, 1) for p in A]
+    rows += ["0,0,0,1,1,1,2", "1,0,0,2,1,1,2"]
+    (tmp_path / "points.csv").write_text("\n".join(["ax,ay,az,bx,by,bz,frame", *rows, ""]))
+    command = [sys.executable, "-m", "relnav.cli", "pose", "points.csv", "--json", "--backend", simulator]
+    done = subprocess.run(command, cwd=tmp_path, capture_output=True, text=True, check=False)
+    assert (done.returncode, done.stderr) == (3, "")
+    first, second, few = json.loads(done.stdout)["frames"]
+    assert first["flags"] == [] and 0 < first["cycles"]["q"] < first["cycles"]["pose"]
+    np.testing.assert_allclose(first["t"], [1.0, 1.0, 1.0], rtol=1e-6)
+    assert {**first, "frame": second["frame"]} == second
+    assert few["flags"] == ["FEW_POINTS"] and few["R"] is None
+    assert [path.name for path in tmp_path.iterdir()] == ["points.csv"]
+
+
+def replaced(file: str, old: str, new: str) -> Callable[[Path], None]:
+    def edit(rtl: Path) -> None:
+        text = (rtl / file).read_text()
+        assert old in text
+        (rtl / file).write_text(text.replace(old, new, 1))
+
+    return edit
+
+
+@pytest.mark.parametrize(
+    ("edit", "message"),
+    [
+        (
+            replaced("oltae/oltae_core.v", "always @(posedge clk) begin", "always @(posedge clk) begn"),
+            r"cannot compile the RTL: \S*/mine/oltae/oltae_core\.v:\d+: syntax error",
+        ),
+        (
+            replaced("oltae/oltae_core.v", "state <= LOAD", "state <= LOADD"),
+            r"/mine/oltae/oltae_core\.v:\d+: .*LOADD",
+        ),
+        (lambda rtl: (rtl / "gram" / "centring.v").unlink(), r"/mine/gram/\w+\.v:\d+: .*centring"),
+        (lambda rtl: (rtl / "include" / "relnav_words.vh").unlink(), r"/mine/\S+:\d+: .*relnav_words\.vh"),
+        (lambda rtl: (rtl / "oltae" / "oltae_top.v").unlink(), r"mine: holds no oltae_top\.v"),
+        (
+            replaced("include/oltae_registers.vh", "32'h4F4C5445", "32'h00000005"),
+            "no OLTAE core here: ID reads 0x00000005",
+        ),
+        (
+            replaced("axi/axil_slave.v", "s_axil_rvalid <= 1'b1", "s_axil_rvalid <= 1'b0"),
+            "not answer the read of 0x000",
+        ),
+        (
+            replaced("axi/frame_loader.v", "s_axis_tready = ", "s_axis_tready = 1'b0 && "),
+            "not take the stream's beats",
+        ),
+        (
+            replaced("axi/frame_loader.v", "frame_start = clear", "frame_start = 1'b0"),
+            "no result after .* state is IDLE",
+        ),
+    ],
+    ids=["syntax", "name", "module", "header", "top", "id", "bus", "stream", "hang"],
+)
+def test_other_rtl_that_does_not_work(
+    edit: Callable[[Path], None], message: str, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setenv("RELNAV_BUILD", str(tmp_path / "build"))
+    rtl = tmp_path / "mine"
+    shutil.copytree(RTL, rtl)
+    edit(rtl)
+    with pytest.raises(BackendError, match=message) as raised:
+        run_frames([FRAME], "icarus", rtl_dir=rtl)
+    assert "\n" not in str(raised.value)
+
+
+def test_other_rtl_is_what_runs(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    """A modified copy gives other numbers; without the copy they are ours again."""
+    monkeypatch.setenv("RELNAV_BUILD", str(tmp_path / "build"))
+    shutil.copytree(RTL, tmp_path / "mine")
+    replaced("arith/to_binary32.v", "binary32 <= {negative, exponent", "binary32 <= {~negative, exponent")(
+        tmp_path / "mine"
+    )
+    (ours,), (theirs,) = (
+        run_frames([FRAME], "icarus"),
+        run_frames([FRAME], "icarus", rtl_dir=tmp_path / "mine"),
+    )
+    assert theirs.T == tuple(word ^ 0x80000000 for word in ours.T)
+
+
+def test_no_frames_no_simulation() -> None:
+    assert run_frames([], "no such simulator") == []
+
+
+@pytest.mark.parametrize("name", ["verilator", "icarus"])
+def test_missing_simulator(name: str, monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr("sim.runner.missing", lambda simulator: f"{simulator} is not installed here")
+    with pytest.raises(BackendError, match=f"^{name} is not installed here$"):
+        run_frames([FRAME], name)
+
+
+def test_waveform(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    """Asked for by argument or by RELNAV_WAVES; the states are in it by name."""
+    import pywellen
+
+    file = tmp_path / "waves" / "oltae_top.fst"
+    run_frames([FRAME], "icarus", waves=file)
+    names = {variable.full_name for variable in pywellen.Waveform(str(file)).all_vars()}
+    for name in (
+        "core.state_name",
+        "loader.state_name",
+        "s_axis_tdata",
+        "registers.s_axil_araddr",
+        "core.q_ready",
+    ):
+        assert any(found.startswith(f"oltae_harness.top.{name}") for found in names), name
+    file.unlink()
+    monkeypatch.setenv("RELNAV_WAVES", str(file))
+    run_frames([FRAME], "icarus")
+    assert file.is_file()
