@@ -195,7 +195,7 @@ module solve_engine #(
     case (reference_code_1)
       REF_MOMENT: reference <= moment_scale - 14'sd32;
       REF_CROSS: reference <= moment_scale - 14'sd33;
-      REF_QUATERNION: reference <= quaternion_square;
+      REF_QUATERNION: reference <= quaternion_square + 14'sd4;
       REF_UNIT: reference <= -14'sd63;
       REF_CENTROID: reference <= centroid_scale - 14'sd29;
       REF_ROTATED: reference <= quaternion_square + centroid_scale + 14'sd35;

@@ -7,7 +7,6 @@ import random
 
 import numpy as np
 from numpy.typing import NDArray
-
 from relnav.model.raw import CoreConfig
 from relnav.quantise import INPUT_MAX, INPUT_MIN, QuantisedFrame
 

@@ -7,7 +7,6 @@ from collections.abc import Callable, Sequence
 
 import numpy as np
 import pytest
-
 from relnav.driver import ALL_FLAGS, OltaeDriver, beats_of
 from relnav.errors import BackendError, InputError
 from relnav.model.raw import CoreConfig, RawResult, float_to_word
@@ -19,7 +18,7 @@ DONE, IDLE = Oltae.State.DONE, Oltae.State.IDLE
 
 
 class Core:
-    """Registers as a dictionary. A frame is taken `lag` looks at STATUS after its last beat, then `solve` answers it."""
+    """A dictionary of registers. A frame is answered by `solve`, `lag` looks at STATUS after its last beat."""
 
     def __init__(self, lag: int = 0) -> None:
         self.words = {Oltae.ID.ADDRESS: Oltae.ID.RESET, Oltae.VERSION.ADDRESS: Oltae.VERSION.RESET}

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""The simulated backend as a user meets it: one JSON object, one line for what goes wrong, a waveform when asked."""
+"""The simulated backend as a user meets it: one JSON object, one line for an error, a waveform when asked."""
 
 from __future__ import annotations
 
@@ -12,11 +12,11 @@ from pathlib import Path
 
 import numpy as np
 import pytest
-
 from relnav.errors import BackendError
 from relnav.frames import make_frame
 from relnav.quantise import quantise
 from relnav.rtlsim import run_frames
+
 from sim.runner import RTL, missing
 
 pytestmark = pytest.mark.skipif(missing("icarus") is not None, reason=str(missing("icarus")))
@@ -104,7 +104,7 @@ def test_other_rtl_is_what_runs(tmp_path: Path, monkeypatch: pytest.MonkeyPatch)
         run_frames([FRAME], "icarus"),
         run_frames([FRAME], "icarus", rtl_dir=tmp_path / "mine"),
     )
-    assert theirs.T == tuple(word ^ 0x80000000 for word in ours.T)
+    assert tuple(word ^ 0x80000000 for word in ours.T) == theirs.T
 
 
 def test_no_frames_no_simulation() -> None:

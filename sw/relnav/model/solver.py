@@ -59,7 +59,7 @@ class Solver:
             asm.OWN: None,
             asm.REF_MOMENT: self.moment_scale - MANT_POINT + 1,
             asm.REF_CROSS: (self.moment_scale if lane else self.cross_scale) - MANT_POINT,
-            asm.REF_QUATERNION: 2 * self.quaternion_scale,
+            asm.REF_QUATERNION: 2 * self.quaternion_scale + 4,  # |p|^2 / 2 may enter as a normalised value
             asm.REF_UNIT: -63,
             asm.REF_CENTROID: self.centroid_scale - MANT_POINT + 4,
             asm.REF_ROTATED: 2 * self.quaternion_scale + self.centroid_scale + 35,

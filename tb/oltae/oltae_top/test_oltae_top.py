@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""oltae_top, full and lean, on both simulators: benches at its ports, and bulk frames by the way a user takes."""
+"""oltae_top, full and lean, on both simulators: benches at its ports, and long frames by the user's way."""
 
 from __future__ import annotations
 
@@ -8,11 +8,11 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
-
 from relnav.model.core import OltaeCore
 from relnav.model.raw import CoreConfig, RawResult
 from relnav.quantise import INPUT_MIN, QuantisedFrame
 from relnav.rtlsim import run_frames
+
 from sim.runner import SIMULATORS, build_and_test, missing, sources
 from tb.oltae.frames import random_frame
 
@@ -23,13 +23,14 @@ BUILDS = {
 LONGEST = 65535
 
 
+@pytest.mark.parametrize("bench", ["frames", "flags", "states"])
 @pytest.mark.parametrize("build", BUILDS)
-def test_ports(build: str, simulator: str) -> None:
-    """The cocotb tests of oltae_top_bench."""
+def test_ports(build: str, bench: str, simulator: str) -> None:
+    """The cocotb tests of oltae_top_*_bench."""
     build_and_test(
         "oltae_top",
         sources(),
-        "oltae_top_bench",
+        f"oltae_top_{bench}_bench",
         simulator=simulator,
         parameters=BUILDS[build],
         env={"FULL": str(int(build == "full")), "FRAMES": "100" if simulator == "verilator" else "30"},
@@ -56,7 +57,7 @@ def check(
 
 @pytest.mark.parametrize("build", BUILDS)
 def test_longest_frames(build: str) -> None:
-    """65535 points, the largest sums there can be among them, and one point too many; on Verilator for its speed."""
+    """65535 points, the largest sums there can be, and one point too many; on Verilator for its speed."""
     if reason := missing("verilator"):
         pytest.skip(reason)
     full = build == "full"

@@ -1,3 +1,24 @@
+# SPDX-License-Identifier: Apache-2.0
+"""oltae_top through its ports: frames of every kind without a reset between, bit for bit the model's."""
+
+from __future__ import annotations
+
+import os
+from dataclasses import replace
+from typing import Any
+
+import cocotb
+from relnav.driver import Feed, OltaeDriver, beats_of
+from relnav.model.raw import RESULT_WORDS, CoreConfig
+from relnav.registers import Oltae
+
+from tb.common import axil, clocks
+from tb.oltae.environment import FULL, Bench, configured, good
+from tb.oltae.frames import random_config, random_frame
+
+FRAMES = int(os.environ.get("FRAMES", "40"))
+
+
 @cocotb.test()
 async def frames_on_every_channel(dut: Any) -> None:
     """Random frames, by stream and by registers, with pauses everywhere; the bus keeps its rules."""
@@ -34,7 +55,7 @@ async def one_frame_of_a_thousand(dut: Any) -> None:
 
 @cocotb.test()
 async def reading_does_not_disturb(dut: Any) -> None:
-    """A storm of reads at any address while frames come and go; a result word is the old one or the new one."""
+    """Reads at any address while frames come and go; a result word is the old one or the new one."""
     bench = await Bench(dut, 6).begin()
     rng = bench.rng
     results = range(Oltae.Q.ADDRESS, Oltae.Q.ADDRESS + 4 * RESULT_WORDS, 4)
@@ -74,3 +95,22 @@ async def reading_does_not_disturb(dut: Any) -> None:
             allowed[index] = {word}
     for task in stormy:
         task.cancel()
+
+
+@cocotb.test()
+async def queued_frames(dut: Any) -> None:
+    """Frames that wait at the stream while the core computes; one is bad, the others are not touched."""
+    bench = await Bench(dut, 7).begin()
+    frames = [good(bench.rng, n) for n in (3, 5, 4)]
+    frames = [replace(frame, frac=-9) for frame in frames]
+    short = beats_of(frames[0])[:6]
+    ticket = await bench.drive(lambda d: configured(d, -9).feed(beats_of(frames[0])))
+    for beats in (beats_of(frames[1]), short, beats_of(frames[2])):
+        await bench.drive(lambda d, b=beats: d.bus.stream(b))
+    for number, frame in enumerate(frames, 1):
+        while (await bench.drive(OltaeDriver.status)).frame != ticket + number:
+            await clocks.tick(dut)
+        got = await bench.standing()
+        assert got.result_words() == bench.model.run(frame, CoreConfig(covariance=FULL)).result_words()
+        assert (got.points, got.flag_names) == (frame.n, ())
+    assert await bench.flags() == ({"FEW_POINTS"}, set())

@@ -1,8 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""oltae_top through its ports alone, against the bit-exact model: frames, flags, resets, interrupts.
-
-The driver of the product drives it, in a thread. Frames follow one another without a reset.
-"""
+"""The core after a reset, with the product's driver in a thread, the model, and a monitor of its events."""
 
 from __future__ import annotations
 
@@ -14,23 +11,21 @@ from dataclasses import asdict, replace
 from typing import Any, TypeVar
 
 import cocotb
-import numpy as np
 from cocotb.task import bridge, resume
-from cocotb.triggers import ClockCycles, FallingEdge, RisingEdge
+from cocotb.triggers import ClockCycles, FallingEdge
 from cocotbext.axi import AxiStreamBus, AxiStreamFrame, AxiStreamSource
-from relnav.driver import Feed, OltaeDriver, beats_of
+from relnav.driver import Feed, OltaeDriver
 from relnav.model.core import OltaeCore
-from relnav.model.raw import RESULT_WORDS, CoreConfig, RawResult
+from relnav.model.raw import CoreConfig, RawResult
 from relnav.quantise import QuantisedFrame
 from relnav.registers import Oltae
 from relnav.result import FLAG_NAMES
 from relnav.rtlsim.bus import RegisterBus
 
 from tb.common import axil, clocks
-from tb.oltae.frames import random_config, random_frame
+from tb.oltae.frames import random_frame
 
 FULL = os.environ.get("FULL", "1") == "1"
-FRAMES = int(os.environ.get("FRAMES", "40"))
 State = Oltae.State
 T = TypeVar("T")
 
@@ -177,3 +172,17 @@ def good(rng: random.Random, n: int = 4, weights: bool = False) -> QuantisedFram
             return frame
 
 
+def configured(driver: OltaeDriver, frac: int = 0) -> OltaeDriver:
+    """The driver, set for unweighted frames."""
+    driver.configure(CoreConfig(covariance=FULL), frac=frac)
+    return driver
+
+
+async def reached(bench: Bench, beats: int) -> None:
+    """Let the paused source send this many beats."""
+    start = bench.beats
+    bench.bus.source.pause = False
+    while bench.beats - start < beats:
+        await FallingEdge(bench.dut.clk)
+    bench.bus.source.pause = True
+    await ClockCycles(bench.dut.clk, 3)

@@ -1,3 +1,22 @@
+# SPDX-License-Identifier: Apache-2.0
+"""oltae_top through its ports: the state machine, the interrupt, and a soft reset in every state."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from typing import Any
+
+import cocotb
+from cocotb.triggers import FallingEdge, RisingEdge
+from relnav.driver import OltaeDriver, beats_of
+from relnav.model.raw import CoreConfig, RawResult
+from relnav.quantise import QuantisedFrame
+from relnav.registers import Oltae
+
+from tb.common import clocks
+from tb.oltae.environment import FULL, Bench, State, configured, good, reached
+
+
 @cocotb.test()
 async def states_acknowledge_and_interrupt(dut: Any) -> None:
     """IDLE, LOAD, COMPUTE, DONE in order; DONE holds until acknowledged or the next frame; irq as enabled."""
@@ -39,7 +58,7 @@ async def states_acknowledge_and_interrupt(dut: Any) -> None:
 
 @cocotb.test()
 async def soft_reset_in_every_state(dut: Any) -> None:
-    """IDLE, LOAD after every beat, COMPUTE at every few clocks, DONE: always IDLE after, the next frame is right."""
+    """IDLE, LOAD after every beat, COMPUTE every few clocks, DONE: then IDLE, and the next frame is right."""
     bench = await Bench(dut, 5).begin()
     caught: set[State] = set()
 
@@ -126,5 +145,3 @@ async def whole_groups(bench: Bench, new: RawResult) -> None:
     assert now[:3] == (fresh if status.q_ready else old)[:3]
     assert now[6:18] == (fresh if status.pose_ready else old)[6:18]
     assert now[18:] == (fresh if status.all_ready else old)[18:]
-
-
