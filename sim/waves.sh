@@ -5,7 +5,6 @@
 set -u
 cd "$(dirname "${BASH_SOURCE[0]}")/.." || exit 1
 core=${1:-oltae_top}
-layout=sim/$core.gtkw
 folder=build/waves
 
 # the last one written: a Verilator without lz4 and zlib headers writes VCD
@@ -24,6 +23,8 @@ if [ -z "$wave" ]; then
     wave=$(newest)
 fi
 [ -n "$wave" ] || { echo "waves: no waveform was written" >&2; exit 1; }
+# opened at the last frame; the layout as saved shows the beginning
+layout=$(.venv/bin/python -m sim.waves "$wave") || layout=sim/$core.gtkw
 
 if ! command -v gtkwave >/dev/null 2>&1; then
     echo "waves: $wave is written; GTKWave is not installed here (Debian package gtkwave). Open it with: gtkwave $wave $layout"

@@ -139,8 +139,12 @@ module dot_lane #(
   wire [ALIGNED-1:0] moved;
   generate
     if (WIDE != 0) begin : g_wide
-      wire signed [69:0] signed_value = product ^ {70{negate_3}};
-      assign moved = signed_value >>> ~closeness;
+      wide_aligner align (
+          .value(product),
+          .invert(negate_3),
+          .shift(~closeness),
+          .aligned(moved)
+      );
     end else begin : g_narrow
       aligner align (
           .value(product[69:DROP]),

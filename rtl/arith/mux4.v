@@ -15,6 +15,6 @@ module mux4 #(
     input  wire [WIDTH-1:0] in_3,
     output wire [WIDTH-1:0] out
 );
-  assign out = select[1] ? select[0] ? in_3 : in_2 : select[0] ? in_1 : in_0;
+  assign out = select[1] ? (select[0] ? in_3 : in_2) : select[0] ? in_1 : in_0;
 endmodule
 `resetall

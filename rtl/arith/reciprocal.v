@@ -41,12 +41,12 @@ module reciprocal (
   wire [8:0] t_2 = {{2{triple[36]}}, triple[36:30]};
   wire [8:0] t_3 = {five[13], five[13:6]};
   wire [8:0] t_4 = {seven[13], seven[13:6]};
-  // 8r - t, or 8r + t + 1 with signs that differ: the cut bits then count for one half each
-  wire [9:0] beyond_1 = {r, 1'b1} + {t_1 ^ {9{positive}}, 1'b1};
-  wire [9:0] beyond_2 = {r, 1'b1} + {t_2 ^ {9{positive}}, 1'b1};
-  wire [9:0] beyond_3 = {r, 1'b1} + {t_3 ^ {9{positive}}, 1'b1};
-  wire [9:0] beyond_4 = {r, 1'b1} + {t_4 ^ {9{positive}}, 1'b1};
-  wire [4:1] reached = ~({beyond_4[9], beyond_3[9], beyond_2[9], beyond_1[9]} ^ {4{below_zero}});
+  // 8r - t less one unit where the signs agree, 8r + t where they differ: either way less than a unit off
+  wire [8:0] beyond_1 = r + (t_1 ^ {9{positive}});
+  wire [8:0] beyond_2 = r + (t_2 ^ {9{positive}});
+  wire [8:0] beyond_3 = r + (t_3 ^ {9{positive}});
+  wire [8:0] beyond_4 = r + (t_4 ^ {9{positive}});
+  wire [4:1] reached = ~({beyond_4[8], beyond_3[8], beyond_2[8], beyond_1[8]} ^ {4{below_zero}});
 
   // ---- remainder; its 35 bits hold |r| <= 4/7 2^34, the bits above cancel
   wire [34:0] multiple;
@@ -111,6 +111,6 @@ module reciprocal (
   assign done = step == LAST[3:0];
   assign result = {1'b0, exponent, high, last, {PAD{1'b0}}};
 
-  wire unused = &{1'b0, next[0], five[5:0], seven[5:0], corrected[3], beyond_1[8:0], beyond_2[8:0], beyond_3[8:0], beyond_4[8:0]};
+  wire unused = &{1'b0, next[0], five[5:0], seven[5:0], corrected[3], beyond_1[7:0], beyond_2[7:0], beyond_3[7:0], beyond_4[7:0]};
 endmodule
 `resetall

@@ -11,7 +11,8 @@
 `default_nettype none
 module oltae_core #(
     parameter WEIGHTED   = 1,
-    parameter COVARIANCE = 1
+    parameter COVARIANCE = 1,
+    parameter REAPPLY    = 1
 ) (
     input  wire        clk,
     input  wire        rst,
@@ -20,6 +21,7 @@ module oltae_core #(
     // configuration, stable while busy
     input  wire        config_forbid_turns,
     input  wire        config_covariance,
+    input  wire        config_reapply,
     input  wire [ 7:0] config_frac,
     input  wire [31:0] config_variance,
     // frame_loader
@@ -238,12 +240,14 @@ module oltae_core #(
   end
   wire [4:0] item_address = item_tag[5] ? item_tag[4:0] : {item_tag[4:3], kind};
   solve_engine #(
-      .COVARIANCE(COVARIANCE)
+      .COVARIANCE(COVARIANCE),
+      .REAPPLY(REAPPLY)
   ) engine (
       .clk(clk),
       .rst(rst | flush),
       .forbid_turns(config_forbid_turns),
       .covariance(COVARIANCE != 0 && config_covariance),
+      .reapply(REAPPLY != 0 && config_reapply),
       .item_valid(item_valid & wanted),
       .item_first(item_tag == 7'd0),
       .item_low(item_low),

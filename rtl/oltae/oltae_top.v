@@ -170,7 +170,8 @@ module oltae_top #(
 
   oltae_core #(
       .WEIGHTED(WEIGHTED),
-      .COVARIANCE(COVARIANCE)
+      .COVARIANCE(COVARIANCE),
+      .REAPPLY(REAPPLY)
   ) core (
       .clk(clk),
       .rst(rst),
@@ -178,6 +179,7 @@ module oltae_top #(
       .acknowledge(acknowledge),
       .config_forbid_turns(config_forbid_turns),
       .config_covariance(config_covariance),
+      .config_reapply(config_reapply),
       .config_frac(config_frac),
       .config_variance(config_variance),
       .accept(accept),

@@ -12,12 +12,14 @@
 `resetall
 `default_nettype none
 module solve_engine #(
-    parameter COVARIANCE = 1  // 0 leaves the covariances' part of the program out
+    parameter COVARIANCE = 1,  // 0 leaves the covariances' part of the program out
+    parameter REAPPLY    = 1   // 0 leaves the re-application out
 ) (
     input  wire        clk,
     input  wire        rst,
     input  wire        forbid_turns,
     input  wire        covariance,     // wanted
+    input  wire        reapply,        // wanted
     // moment stream
     input  wire        item_valid,
     input  wire        item_first,
@@ -42,10 +44,10 @@ module solve_engine #(
   // result kinds, references and modes of sw/relnav/model/assembler.py
   localparam [1:0] RAW = 2'd1, FIXED = 2'd2;
   localparam [3:0] REF_OWN = 4'd0, REF_MOMENT = 4'd1, REF_CROSS = 4'd2, REF_QUATERNION = 4'd3, REF_UNIT = 4'd4,
-      REF_CENTROID = 4'd5, REF_ROTATED = 4'd6;
+      REF_CENTROID = 4'd5, REF_ROTATED = 4'd6, REF_PROBED = 4'd8, REF_NEWTON = 4'd9, REF_IMAGE = 4'd10, REF_FORM = 4'd11, REF_COFACTOR = 4'd12;
   localparam [2:0] MARK_Q = 3'd1, MARK_POSE = 3'd2, MARK_BASIC = 3'd3, MARK_ALL = 3'd4;
   localparam [1:0] BROADCAST = 2'd2;  // 1: each lane its own
-  localparam [1:0] TRACK_QUATERNION = 2'd1, TRACK_CENTROID = 2'd2;
+  localparam [1:0] TRACK_QUATERNION = 2'd1, TRACK_CENTROID = 2'd2, TRACK_AFRESH = 2'd3;
   localparam [1:0] DIVIDE = 2'd1, DIVIDE_UNTURNED = 2'd2, DIVIDE_TURNED = 2'd3;
   localparam [2:0] SINGLE = 3'd1, TRIPLE_COLUMN = 3'd3, PAIR = 3'd4, THIRD = 3'd5;
   localparam [47:0] ONE = {1'b0, -12'd33, 35'h200000000};
@@ -57,13 +59,14 @@ module solve_engine #(
   reg run;
   reg [9:0] counter, word_address, dot_address;
   reg second_pass;
+  reg reapplied;
   wire finished;
   wire [5:0] x_address;
   wire [4:0] y_address;
   wire x_by_lane, y_by_lane, first;
   wire [3:0] alternate, negate, enable;
   wire [3:0] reference_code;
-  wire only_estimated, clamp;
+  wire only_estimated, only_first, clamp;
   wire last, half, turn_dest, only_turned, choose_turn;
   wire [2:0] source, result_output, mark;
   wire [1:0] kind, write, track, divide;
@@ -71,12 +74,15 @@ module solve_engine #(
   wire [5:0] output_index;
 
   // A probed dot product runs twice: the first pass finds its largest exponent, then the program goes back to its first slot.
-  wire probed = reference_code[3];
+  wire probed = reference_code == REF_PROBED;
   wire rewind = last & probed & ~second_pass;
-  wire [9:0] address = !rewind ? counter : first ? word_address : dot_address;
+  wire leaving;  // the re-application is done
+  wire [9:0] following;
+  wire [9:0] address = !rewind ? following : first ? word_address : dot_address;
 
   solve_program #(
-      .COVARIANCE(COVARIANCE)
+      .COVARIANCE(COVARIANCE),
+      .REAPPLY(REAPPLY)
   ) microprogram (
       .clk(clk),
       .run(run),
@@ -90,6 +96,7 @@ module solve_engine #(
       .enable(enable),
       .first(first),
       .only_estimated(only_estimated),
+      .only_first(only_first),
       .reference_code(reference_code),
       .last(last),
       .kind(kind),
@@ -107,6 +114,10 @@ module solve_engine #(
       .result_output(result_output),
       .output_index(output_index),
       .mark(mark),
+      .counter(counter),
+      .reapply(reapply & ~reapplied),
+      .leaving(leaving),
+      .following(following),
       .redrain(redrain),
       .finished(finished)
   );
@@ -118,8 +129,9 @@ module solve_engine #(
     word_address <= address;
     if (first) dot_address <= word_address;
     second_pass  <= rewind | (second_pass & ~last);
+    reapplied    <= leaving & ~rewind & run | (reapplied & ~start);
     if (rst) run <= 1'b0;
-    if (rst | start) second_pass <= 1'b0;
+    if (rst | start) {second_pass, reapplied} <= 2'b00;
   end
 
   // Result fields travel beside the lanes: raw and fixed results leave in cycle 5, `half` acts in 6, the rest in 7.
@@ -166,6 +178,7 @@ module solve_engine #(
   wire suppressed = only_turned_7 & unturned;
   wire [4:0] dest_now = {dest_7[4], dest_7[3] | (turn_dest_7 & unturned), dest_7[2:0]};
   wire track_quaternion = live[7] & track_7 == TRACK_QUATERNION & ~suppressed & dest_now[4:2] == 3'd3 & ~bus[47];
+  wire track_afresh = live[7] & track_7 == TRACK_AFRESH;
   wire track_centroid = live[7] & track_7 == TRACK_CENTROID & ~bus[47];
 
   always @(posedge clk) begin
@@ -174,7 +187,7 @@ module solve_engine #(
     if (start) cross_scale <= LOWEST;
     else if (is_cross && item_exponent > cross_scale) cross_scale <= item_exponent;
     if (start) quaternion_scale <= LOWEST;
-    else if (track_quaternion && bus_exponent > quaternion_scale) quaternion_scale <= bus_exponent;
+    else if (track_afresh || (track_quaternion && bus_exponent > quaternion_scale)) quaternion_scale <= bus[47] ? LOWEST : bus_exponent;
     if (start) centroid_scale <= LOWEST;
     else if (track_centroid && bus_exponent > centroid_scale) centroid_scale <= bus_exponent;
   end
@@ -190,7 +203,7 @@ module solve_engine #(
     own_reference    <= reference_code_1 == REF_OWN;
     probing_1        <= probed & ~second_pass;
     probing          <= probing_1;
-    probed_reference <= reference_code_1[3] & ~probing_1;
+    probed_reference <= reference_code_1 == REF_PROBED & ~probing_1;
     if (item_valid && item_address == 5'd29) estimated <= item_value[47];
     case (reference_code_1)
       REF_MOMENT: reference <= moment_scale - 14'sd32;
@@ -199,6 +212,10 @@ module solve_engine #(
       REF_UNIT: reference <= -14'sd63;
       REF_CENTROID: reference <= centroid_scale - 14'sd29;
       REF_ROTATED: reference <= quaternion_square + centroid_scale + 14'sd35;
+      REF_NEWTON: reference <= moment_scale - 14'sd28;
+      REF_IMAGE: reference <= moment_scale + quaternion_scale + 14'sd6;
+      REF_COFACTOR: reference <= (moment_scale <<< 1) + 14'sd8;
+      REF_FORM: reference <= moment_scale + quaternion_square + 14'sd42;
       default: reference <= -14'sd42;  // Q15.16 with one bit for rounding
     endcase
     reference_cross <= reference_code_1 == REF_CROSS ? cross_scale - 14'sd33 : 14'sd0;
@@ -231,7 +248,7 @@ module solve_engine #(
           .y_by_lane(y_by_lane),
           .alternate(alternate[k]),
           .negate(negate[k]),
-          .enable(enable[k] & (estimated | ~only_estimated)),
+          .enable(enable[k] & (estimated | ~only_estimated) & ~(only_first & reapply)),
           .first(first),
           .reference(k == 0 && cross_2 ? reference_cross : reference),
           .own_reference(own_reference),

@@ -25,10 +25,12 @@ def solve(
     *,
     config: CoreConfig | None = None,
     rtl_dir: str | Path | None = None,
+    waves: Path | None = None,
 ) -> list[PoseResult]:
     """The poses of the frames, in order; on a simulator they run back to back without a reset.
 
     double solves the values as given, the others their quantisation; what has none is refused by all.
+    waves: where a simulator leaves its waveform (rtlsim.run_frames).
     Raises InputError, BackendError.
     """
     config = config or CoreConfig()
@@ -43,7 +45,10 @@ def solve(
         return [_double(frame, config) for frame in frames]
     # A frame without points has no beat that could end it: the core never sees it.
     seen = [frame for frame in quantised if frame.n]
-    raws = iter(_fixed(seen, config) if backend == "fixed" else _simulated(seen, backend, rtl_dir, config))
+    if backend == "fixed":
+        raws = iter(_fixed(seen, config))
+    else:
+        raws = iter(_simulated(seen, backend, rtl_dir, config, waves))
     empty = RawResult(flags=1)
     return [raw_to_pose(next(raws) if frame.n else empty, frame.name, frame) for frame in quantised]
 
@@ -66,11 +71,16 @@ def _fixed(frames: list[QuantisedFrame], config: CoreConfig) -> list[RawResult]:
 
 
 def _simulated(
-    frames: list[QuantisedFrame], simulator: str, rtl_dir: str | Path | None, config: CoreConfig
+    frames: list[QuantisedFrame],
+    simulator: str,
+    rtl_dir: str | Path | None,
+    config: CoreConfig,
+    waves: Path | None,
 ) -> list[RawResult]:
     if rtl_dir is not None and not Path(rtl_dir).is_dir():
         raise BackendError(f"{rtl_dir}: no such RTL directory")
-    raws: list[RawResult] = _part("rtlsim").run_frames(frames, simulator, rtl_dir=rtl_dir, config=config)
+    run_frames = _part("rtlsim").run_frames
+    raws: list[RawResult] = run_frames(frames, simulator, rtl_dir=rtl_dir, config=config, waves=waves)
     if len(raws) != len(frames):
         raise BackendError(f"{simulator} returned {len(raws)} results for {len(frames)} frames")
     return raws

@@ -9,9 +9,9 @@ from pathlib import Path
 
 from tqdm import tqdm
 
-from .backends import solve
+from .backends import SIMULATORS, solve
 from .comparison import Solutions, exact_poses, paper_runs
-from .errors import InputError
+from .errors import BackendError, InputError
 from .frames import Frame
 from .model.raw import CoreConfig
 from .report import FIGURES, write_report
@@ -26,6 +26,7 @@ Solver = Callable[[Sequence[Frame], str, CoreConfig, Path | None], list[PoseResu
 
 ROOT = Path(__file__).resolve().parents[2]
 WAVES = ROOT / "build" / "waves"
+TRACED = 2  # frames in the waveform, back to back
 AREA = ROOT / "syn" / "results.json"
 EXIT_DIFFERENT = 1
 
@@ -114,7 +115,18 @@ def _solved(
 
 
 def _solve(frames: Sequence[Frame], backend: str, config: CoreConfig, rtl: Path | None) -> list[PoseResult]:
-    return solve(frames, backend, config=config, rtl_dir=rtl)
+    results = solve(frames, backend, config=config, rtl_dir=rtl)
+    if backend in SIMULATORS:
+        _trace(frames[-TRACED:], backend, config, rtl)
+    return results
+
+
+def _trace(frames: Sequence[Frame], backend: str, config: CoreConfig, rtl: Path | None) -> None:
+    """Some frames once more, for `make waves` and the report's Fig. 7: a waveform of all would take 100 MB."""
+    try:
+        solve(frames, backend, config=config, rtl_dir=rtl, waves=WAVES / "oltae_top.fst")
+    except BackendError as error:  # a waveform is a picture, not a result
+        tqdm.write(f"no waveform: {error}", file=sys.stderr)
 
 
 def _waveform() -> Path:

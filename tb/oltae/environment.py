@@ -12,7 +12,8 @@ from typing import Any, TypeVar
 
 import cocotb
 from cocotb.task import bridge, resume
-from cocotb.triggers import ClockCycles, FallingEdge
+from cocotb.triggers import FallingEdge, RisingEdge
+from cocotb.utils import get_sim_time
 from cocotbext.axi import AxiStreamBus, AxiStreamFrame, AxiStreamSource
 from relnav.driver import Feed, OltaeDriver
 from relnav.model.core import OltaeCore
@@ -25,6 +26,7 @@ from relnav.rtlsim.bus import RegisterBus
 from tb.common import axil, clocks
 from tb.oltae.frames import random_frame
 
+EVENTS = ("frame_start", "frame_end", "q_ready", "pose_ready", "all_ready")
 FULL = os.environ.get("FULL", "1") == "1"
 State = Oltae.State
 T = TypeVar("T")
@@ -54,34 +56,22 @@ class Bench:
         self.driver = OltaeDriver(self.bus)
         self.model = OltaeCore(weighted=FULL)
         self.last = RawResult()  # what the registers show
-        self.clock = 0
-        self.beats = 0
-        self.events: dict[str, int] = {}
+        self.rises: dict[str, int] = {}
 
     async def begin(self) -> Bench:
-        cocotb.start_soon(self._watch())
+        for name in EVENTS:
+            cocotb.start_soon(self._watch(name))
         await clocks.start(self.dut)
         await clocks.tick(self.dut, 2)
         self.last = await self.standing()  # memory is not reset: what the test before left
         assert (self.last.points, self.last.weight, self.last.cycles_all) == (0, 0, 0)
         return self
 
-    async def _watch(self) -> None:
-        """Clock of the last beat taken from the stream and of each ready bit's rise."""
-        dut = self.dut
-        before = dict.fromkeys(("q_ready", "pose_ready", "all_ready"), 0)
+    async def _watch(self, name: str) -> None:
+        """Remember the clock of a signal's last rise."""
         while True:
-            await FallingEdge(dut.clk)
-            self.clock += 1
-            if dut.s_axis_tvalid.value == 1 and dut.s_axis_tready.value == 1:
-                self.beats += 1
-                if dut.s_axis_tlast.value == 1:
-                    self.events = {"last": self.clock}
-            for name in before:
-                now = int(getattr(dut, name).value == 1)
-                if now and not before[name]:
-                    self.events[name] = self.clock
-                before[name] = now
+            await RisingEdge(getattr(self.dut, name))
+            self.rises[name] = int(get_sim_time("ns")) // clocks.PERIOD_NS
 
     def pauses(self) -> None:
         """Random idle clocks and back-pressure on every AXI channel."""
@@ -121,11 +111,9 @@ class Bench:
             return got
         assert got.cycles_q is not None and got.cycles_pose is not None and got.cycles_all is not None
         assert 0 < got.cycles_q < got.cycles_pose <= got.cycles_all
-        if feed == "stream":
-            for name, counted in zip(
-                ("q", "pose", "all"), (got.cycles_q, got.cycles_pose, got.cycles_all), strict=True
-            ):
-                assert self.events[f"{name}_ready"] - self.events["last"] - 1 == counted, name
+        for name, counted in (("q", got.cycles_q), ("pose", got.cycles_pose), ("all", got.cycles_all)):
+            # frame_end is up in the clock whose end takes the last beat
+            assert self.rises[f"{name}_ready"] - self.rises["frame_end"] - 1 == counted, name
         wrong = differences(got, expected)
         assert not wrong, f"{wrong} of {tell(frame, config)}"
         self.last = got
@@ -178,11 +166,18 @@ def configured(driver: OltaeDriver, frac: int = 0) -> OltaeDriver:
     return driver
 
 
-async def reached(bench: Bench, beats: int) -> None:
-    """Let the paused source send this many beats."""
-    start = bench.beats
+async def reached(bench: Bench, beats: int) -> int:
+    """Let the paused source send this many beats, or one more; returns how many were taken."""
+    dut, taken = bench.dut, 0
+
+    async def clock() -> int:
+        await FallingEdge(dut.clk)
+        return int(dut.s_axis_tvalid.value == 1 and dut.s_axis_tready.value == 1)
+
     bench.bus.source.pause = False
-    while bench.beats - start < beats:
-        await FallingEdge(bench.dut.clk)
+    while taken < beats:
+        taken += await clock()
     bench.bus.source.pause = True
-    await ClockCycles(bench.dut.clk, 3)
+    for _ in range(4):
+        taken += await clock()
+    return taken

@@ -27,7 +27,11 @@ def answer(frame: QuantisedFrame, config: CoreConfig) -> RawResult:
 
 
 def run_frames(
-    frames: list[QuantisedFrame], simulator: str, rtl_dir: object = None, config: CoreConfig | None = None
+    frames: list[QuantisedFrame],
+    simulator: str,
+    rtl_dir: object = None,
+    config: CoreConfig | None = None,
+    waves: object = None,
 ) -> list[RawResult]:
     assert config is not None
     return [answer(frame, config) for frame in frames]

@@ -18,7 +18,7 @@ DONE, IDLE = Oltae.State.DONE, Oltae.State.IDLE
 
 
 class Core:
-    """A dictionary of registers. A frame is answered by `solve`, `lag` looks at STATUS after its last beat."""
+    """A dictionary of registers. `solve` answers a frame, `lag` looks at STATUS after its last beat."""
 
     def __init__(self, lag: int = 0) -> None:
         self.words = {Oltae.ID.ADDRESS: Oltae.ID.RESET, Oltae.VERSION.ADDRESS: Oltae.VERSION.RESET}

@@ -21,9 +21,9 @@ TURN = 4  # broadcast from the lane of the chosen turn
 # result kinds
 NORMAL, RAW, FIXED = range(3)
 # reference exponents
-OWN, REF_MOMENT, REF_CROSS, REF_QUATERNION, REF_UNIT, REF_CENTROID, REF_ROTATED, REF_FIXED, REF_PROBED = range(9)
+OWN, REF_MOMENT, REF_CROSS, REF_QUATERNION, REF_UNIT, REF_CENTROID, REF_ROTATED, REF_FIXED, REF_PROBED, REF_NEWTON, REF_IMAGE, REF_FORM, REF_COFACTOR = range(13)
 # register whose exponent maximum is tracked
-NO_TRACK, TRACK_QUATERNION, TRACK_CENTROID = range(3)
+NO_TRACK, TRACK_QUATERNION, TRACK_CENTROID, TRACK_AFRESH = range(4)
 # divider start
 NO_DIVIDE, DIVIDE, DIVIDE_UNTURNED, DIVIDE_TURNED = range(4)
 # result output
@@ -41,7 +41,7 @@ def lanes(*members: int) -> frozenset[int]:
 class Term:
     """One product x*y. ``x``/``y`` addresses are XORed with the lane's number where ``*_by_lane``;
     lanes in ``alternate`` flip address bit 0 of x, lanes in ``negate`` subtract, lanes not in ``enable`` add nothing; ``only_estimated``
-    terms count only where the variance is estimated from the residual."""
+    terms count only where the variance is estimated from the residual, ``only_first`` ones only without re-application."""
 
     x: int
     y: int
@@ -51,6 +51,7 @@ class Term:
     x_by_lane: bool = False
     y_by_lane: bool = False
     only_estimated: bool = False
+    only_first: bool = False
 
 
 @dataclass

@@ -84,7 +84,7 @@ class OltaeCore:
         flags = self.refused(frame)
         if flags:
             return RawResult(flags=flags)
-        solver = Solver(forbid_turns=config.forbid_turns)
+        solver = Solver(forbid_turns=config.forbid_turns, reapply=config.reapply and self.weighted)
         for address, value, low in self.items(frame, config):
             solver.hold(address, value, low)
         solver.run(self.program)

@@ -36,6 +36,12 @@ def normalise(value: int, exponent: int, mant_bits: int = MANT) -> LaneValue:
     return mantissa, exponent + shift
 
 
+def wrapped(exponent: int) -> int:
+    """The exponent as its EXPO bits hold it: only what follows from 1/0 ever leaves them."""
+    half = 1 << (words.EXPO - 1)
+    return (exponent + half) % (2 * half) - half
+
+
 @dataclass
 class DotLane:
     """Accumulator of one lane. The reference is given, or the first enabled, non-zero term's.
@@ -83,7 +89,7 @@ class DotLane:
         if self.reference is None or (clamp and self.acc < 0):
             return ZERO
         mantissa, exponent = normalise(self.acc, self.reference + self.drop)
-        return (mantissa, exponent - half) if mantissa else ZERO
+        return (mantissa, wrapped(exponent - half)) if mantissa else ZERO
 
     @property
     def narrow(self) -> int:
@@ -97,7 +103,7 @@ class DotLane:
         mantissa = self.narrow >> RAW
         if not -(1 << (MANT - 1)) <= mantissa < 1 << (MANT - 1):
             raise LaneOverflow("raw result too wide")
-        return mantissa, self.reference + DROP + RAW
+        return mantissa, wrapped(self.reference + DROP + RAW)
 
     def overflows(self, x: LaneValue, y: LaneValue) -> bool:
         """Fixed-point output only: a term above the accumulator saturates."""

@@ -128,11 +128,11 @@ def moment_matrix() -> list[Dot]:
     ]
 
 
-def adjugate() -> list[Dot]:
+def adjugate(reference: int = asm.OWN) -> list[Dot]:
     """C = adj M: first what the determinant needs, cofactors that need the last moment last."""
 
     def cofactor(name: str, dest: int, plus: tuple[int, int], minus: tuple[int, int]) -> Dot:
-        return Dot(name, [Term(*plus), Term(*minus, negate=ALL)], kind=asm.RAW, dest=dest)
+        return Dot(name, [Term(*plus), Term(*minus, negate=ALL)], kind=asm.RAW, reference=reference, dest=dest)
 
     m11, m22, m33 = MD + 1, MD + 2, MD + 3
     m23, m13, m12 = MO + 1, MO + 2, MO + 3

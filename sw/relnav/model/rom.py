@@ -7,6 +7,7 @@ from dataclasses import dataclass
 from pathlib import Path
 
 from relnav.model import assembler as asm
+from relnav.model import newton_program as newton
 from relnav.model import pose_program as pose
 from relnav.model import statistics_program as statistics
 from relnav.model.schedule import Scheduler
@@ -22,6 +23,7 @@ SLOT_FIELDS = (
     ("enable", 4),
     ("first", 1),
     ("only_estimated", 1),
+    ("only_first", 1),
     ("reference_code", 4),
 )
 RESULT_FIELDS = (
@@ -69,6 +71,7 @@ def slot_words(dot: asm.Dot) -> list[int]:
             "enable": mask(term.enable),
             "first": number == 0,
             "only_estimated": term.only_estimated,
+            "only_first": term.only_first,
             "reference_code": dot.reference,
         }
         if last:
@@ -105,50 +108,93 @@ DRAIN_LATENCY = 17
 
 @dataclass(frozen=True)
 class Program:
-    """The whole program, scheduled, and the cycle in which it asks for the second drain."""
+    """The whole program, scheduled: dot products in order, and the re-application that is called in between."""
 
     dots: list[asm.Dot]
+    newton: list[asm.Dot]
+    call: int
+    """Number of dot products before the re-application."""
+    call_cycle: int
+    return_cycle: int
+    """Cycle, counted through the re-application, in which the program goes on as if it were `call_cycle`."""
     redrain: int
+    """Cycle in which the second drain is asked for."""
     basic: int
     """Number of dot products without the covariances."""
 
-    def addresses(self) -> list[int]:
-        """ROM address of each dot product: idle cycles take a place, the second pass of a probed one does not."""
-        found, address, cycle = [], 0, 0
-        for dot in self.dots:
-            address += dot.cycle - cycle
-            found.append(address)
-            address += len(dot.terms)
-            cycle = dot.end + 1
-        return found
+    def in_order(self, reapply: bool) -> list[asm.Dot]:
+        """What runs, in the order of execution."""
+        return [*self.dots[: self.call], *(self.newton if reapply else []), *self.dots[self.call :]]
+
+
+def addresses(dots: list[asm.Dot], cycle: int, address: int) -> list[int]:
+    """ROM address of each dot product: idle cycles take a place, the second pass of a probed one does not."""
+    found = []
+    for dot in dots:
+        address += dot.cycle - cycle
+        found.append(address)
+        address += len(dot.terms)
+        cycle = dot.end + 1
+    return found
+
+
+def reapplication(prefix: Scheduler, main: list[asm.Dot]) -> tuple[list[asm.Dot], int]:
+    """The Newton step scheduled behind the quaternion, and the cycle in which the main program may go on.
+
+    `main`, scheduled without it, expects the quaternion and 1/p_0 when they were ready at first; the return is late enough
+    for the new ones, and for writes still under way not to meet those of `main`.
+    """
+    call = prefix.next_slot
+    before = dict(prefix.ready)
+    dots = prefix.run(newton.program())
+    awaited = [*range(pose.P, pose.P + 4), pose.RECIPROCAL_P0]
+    delay = max(prefix.next_slot - call, *(prefix.ready[r] - before[r] for r in awaited))
+    later = {d.end + d.latency for d in main if d.write != asm.NO_WRITE}
+    later |= {d.end + d.latency + asm.RECIPROCAL_LATENCY for d in main if d.divide != asm.NO_DIVIDE}
+    while any(write - delay in later for write in prefix.busy_writes if write > call + delay):
+        delay += 1
+    return dots, call + delay
 
 
 def scheduled() -> Program:
-    """Pose, statistics and covariances in one schedule."""
+    """Pose, statistics and covariances in one schedule, and the re-application."""
     scheduler = Scheduler(pose.arrival(), pose.references())
     dots = scheduler.run(pose.program())
-    # the low limbs may not come before the items whose places they take have been read
+    call = next(number for number, dot in enumerate(dots) if dot.name == "P3") + 1
+    call_cycle = dots[call - 1].end + 1
+    # the low limbs may not come before the items whose places they take have been read, nor before the re-application
     last_use = max(dot.end for dot in dots if dot.name.startswith("ca"))
-    redrain = last_use + 1 - DRAIN_EARLIEST
+    redrain = max(last_use + 1 - DRAIN_EARLIEST, call_cycle + 1)
     scheduler.ready |= statistics.arrival(redrain + DRAIN_LATENCY)
     dots += scheduler.run(statistics.program(covariance=True))
-    return Program(dots, redrain, len(pose.program()) + len(statistics.program(covariance=False)))
+
+    prefix = Scheduler(pose.arrival(), pose.references())
+    prefix.run(pose.program()[:call])
+    step, return_cycle = reapplication(prefix, dots[call:])
+    basic = len(pose.program()) + len(statistics.program(covariance=False))
+    return Program(dots, step, call, call_cycle, return_cycle, redrain, basic)
 
 
 def verilog() -> str:
     """Text of solve_program.v."""
     program = scheduled()
-    addresses = program.addresses()
+    main = addresses(program.dots, 0, 0)
+    target = main[-1] + len(program.dots[-1].terms) + 2
+    step = addresses(program.newton, program.call_cycle, target)
+    leave = step[-1] + len(program.newton[-1].terms) + program.return_cycle - (program.newton[-1].end + 1)
     lines = {}
-    for number, (dot, start) in enumerate(zip(program.dots, addresses, strict=True)):
+    placed = zip([*program.dots, *program.newton], [*main, *step], strict=True)
+    for number, (dot, start) in enumerate(placed):
         for slot, word in enumerate(slot_words(dot)):
             note = f"{dot.name} {slot + 1}/{len(dot.terms)}"
             value = f"{WIDTH}'h{word:x}"
-            if number >= program.basic:
+            if number >= len(program.dots):
+                value = f"REAPPLY != 0 ? {value} : {WIDTH}'d0"
+            elif number >= program.basic:
                 value = f"COVARIANCE != 0 ? {value} : {WIDTH}'d0"
             lines[start + slot] = f"      {ADDRESS}'d{start + slot}: word <= {value};  // {note}"
-    end = max(lines)
-    assert end < 1 << ADDRESS
+    end = target - 3
+    assert leave < (1 << ADDRESS) - 1
     ports = "\n".join(
         f"    output wire {f'[{width - 1}:0] ' if width > 1 else ''}{name}," for name, width in FIELDS
     )
@@ -168,12 +214,18 @@ def verilog() -> str:
 `resetall
 `default_nettype none
 module solve_program #(
-    parameter COVARIANCE = 1
+    parameter COVARIANCE = 1,
+    parameter REAPPLY    = 1
 ) (
     input  wire       clk,
     input  wire       run,
     input  wire [{ADDRESS - 1}:0] address,
 {ports}
+    // the re-application is called at CALL, starts at TARGET and leaves at LEAVE for CALL
+    input  wire [{ADDRESS - 1}:0] counter,
+    input  wire       reapply,         // wanted, and not yet done
+    output wire       leaving,
+    output wire [{ADDRESS - 1}:0] following,  // address after `counter`'s predecessor
     output wire       redrain,
     output wire       finished
 );
@@ -183,6 +235,10 @@ module solve_program #(
 {body}
       default: word <= {WIDTH}'d0;
     endcase
+  localparam [{ADDRESS - 1}:0] CALL = {program.call_cycle}, TARGET = {target}, LEAVE = {leave};
+  wire calling = REAPPLY != 0 && reapply && counter == CALL;
+  assign leaving = REAPPLY != 0 && counter == LEAVE;
+  assign following = calling ? TARGET : leaving ? CALL : counter;
   assign redrain = run & address == {ADDRESS}'d{program.redrain};
   assign finished = address == {ADDRESS}'d{end + 1};
 {chr(10).join(assigns)}

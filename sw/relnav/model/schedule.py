@@ -11,12 +11,17 @@ from relnav.model.assembler import (
     NO_OUTPUT,
     NO_WRITE,
     PAIR,
+    PRIVATE,
+    RAW,
     RECIPROCAL_LATENCY,
     REF_CENTROID,
+    REF_FORM,
+    REF_IMAGE,
     REF_QUATERNION,
     REF_ROTATED,
     SINGLE,
     THIRD,
+    TRACK_AFRESH,
     TRACK_CENTROID,
     TRACK_QUATERNION,
     TRIPLE,
@@ -27,7 +32,8 @@ from relnav.model.assembler import (
 DIVIDER_BUSY = 11  # cycles from one start to the next
 # references that a tracked scale enters
 SCALED = {
-    TRACK_QUATERNION: (REF_QUATERNION, REF_ROTATED),
+    TRACK_QUATERNION: (REF_QUATERNION, REF_ROTATED, REF_IMAGE, REF_FORM),
+    TRACK_AFRESH: (REF_QUATERNION, REF_ROTATED),
     TRACK_CENTROID: (REF_CENTROID, REF_ROTATED),
 }
 # places of the queue that an output fills: lane 0 alone, or lanes 1 to 3
@@ -99,6 +105,7 @@ class Scheduler:
 
     def place(self, dot: Dot) -> None:
         """Give ``dot`` its cycle."""
+        assert dot.kind != RAW or dot.write == PRIVATE, "a raw result leaves before the bus"
         cycle = max(self.next_slot, dot.earliest)
         while not self.fits(dot, cycle):
             cycle += 1

@@ -23,6 +23,7 @@ class Solver:
     """Register files, scale registers and outputs of the solve engine for one frame."""
 
     forbid_turns: bool = False
+    reapply: bool = False
     registers: list[list[LaneValue]] = field(default_factory=lambda: [[ZERO] * 64 for _ in range(LANES)])
     turn: int = 0
     moment_scale: int = EXPONENT_FLOOR
@@ -63,6 +64,10 @@ class Solver:
             asm.REF_UNIT: -63,
             asm.REF_CENTROID: self.centroid_scale - MANT_POINT + 4,
             asm.REF_ROTATED: 2 * self.quaternion_scale + self.centroid_scale + 35,
+            asm.REF_IMAGE: self.moment_scale + self.quaternion_scale + 6,
+            asm.REF_FORM: self.moment_scale + 2 * self.quaternion_scale + 42,
+            asm.REF_COFACTOR: 2 * self.moment_scale + 8,
+            asm.REF_NEWTON: self.moment_scale - MANT_POINT + 5,
             asm.REF_FIXED: -17 - words.LANE_DROP,
         }[code]
 
@@ -70,7 +75,7 @@ class Solver:
         """(x, y, negate) of the terms that count in a lane."""
         found = []
         for term in dot.terms:
-            if lane not in term.enable or (term.only_estimated and not self.estimated):
+            if lane not in term.enable or (term.only_estimated and not self.estimated) or (term.only_first and self.reapply):
                 continue
             x_address = term.x ^ (lane if term.x_by_lane else 0) ^ (lane in term.alternate)
             y_address = term.y ^ (lane if term.y_by_lane else 0)
@@ -116,6 +121,8 @@ class Solver:
                     self.registers[number][dest] = broadcast
             if dot.track == asm.TRACK_QUATERNION and dest & ~3 == pose.P and broadcast[0]:
                 self.quaternion_scale = max(self.quaternion_scale, broadcast[1])
+            if dot.track == asm.TRACK_AFRESH:
+                self.quaternion_scale = broadcast[1] if broadcast[0] else EXPONENT_FLOOR
             if dot.track == asm.TRACK_CENTROID and broadcast[0]:
                 self.centroid_scale = max(self.centroid_scale, broadcast[1])
         if dot.divide == asm.DIVIDE or (
@@ -142,8 +149,8 @@ class Solver:
     def run(self, program: Program) -> None:
         """The program in issue order; the schedule proves that the pipelined engine does the same."""
         pending = True
-        for dot in program.dots:
-            if pending and dot.cycle > program.redrain + DRAIN_LATENCY:
+        for dot in program.in_order(self.reapply):
+            if pending and dot not in program.newton and dot.cycle > program.redrain + DRAIN_LATENCY:
                 pending = False
                 for address, value in self.low_limbs:
                     for bank in self.registers:

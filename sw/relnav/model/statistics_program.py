@@ -144,6 +144,7 @@ def determinant() -> list[Dot]:
         Dot(
             "D",
             [Term(MD + 1, CD + 1), Term(MO + 2, CO + 2), Term(MO + 3, CO + 3)],
+            reference=asm.REF_PROBED,
             write=asm.BROADCAST,
             source=asm.TURN,
             dest=D,
@@ -203,7 +204,8 @@ def inverse() -> list[Dot]:
 def quaternion_of_turn(c: int) -> Term:
     """p_c of the lane's turn from the composed one, times 1/D: P_(c^lane) = +-p_c."""
     minus = frozenset(lane for lane in range(4) if pose.QUATERNION_SIGN[lane, c ^ lane] < 0)
-    return Term(P + c, RECIPROCAL_D, negate=minus, x_by_lane=True)
+    # after a re-application it stands for the points turned by R, whose q is 0
+    return Term(P + c, RECIPROCAL_D, negate=minus, x_by_lane=True, only_first=True)
 
 
 def attitude() -> list[Dot]:

@@ -25,12 +25,13 @@ ROWS: tuple[tuple[str, str, tuple[str, ...]], ...] = (
     ("s_axis_tvalid", DOUBLE, ("s_axis_tvalid",)),
     ("s_axis_tready", DOUBLE, ("s_axis_tready",)),
     ("s_axis_tlast", DOUBLE, ("s_axis_tlast",)),
-    ("state", INK, ("state", "state_q", "state_reg")),
-    ("pair_valid", PAPER, ("pair_valid",)),
-    ("centred_valid", PAPER, ("centred_valid", "centring_valid")),
-    ("float_valid", PAPER, ("float_valid", "norm_valid", "normal_valid", "lane_valid", "normalised_valid")),
-    ("solve_busy", PAPER, ("solve_busy", "engine_busy", "solver_busy", "busy")),
-    ("result_write", PAPER, ("result_write", "result_we", "result_valid")),
+    ("state", INK, ("state",)),
+    ("pair_valid", PAPER, ("pair_valid",)),  # raw moments leave the Gram array
+    ("centred_valid", PAPER, ("centred_valid",)),
+    ("item_valid", PAPER, ("item_valid",)),  # lane floats enter the solve engine
+    ("engine.run", PAPER, ("run",)),
+    ("chosen", PAPER, ("chosen",)),  # the turn is
+    ("write_valid", PAPER, ("write_valid",)),  # of a result word
     ("q_ready", CORE, ("q_ready",)),
     ("pose_ready", CORE, ("pose_ready",)),
     ("all_ready", CORE, ("all_ready",)),
@@ -149,10 +150,12 @@ def _draw(traces: dict[str, Trace], zero: int, end: int, period: int) -> bytes:
     axes.axvline(0.0, color=MUTED, linewidth=0.8, linestyle="--")
     for row, trace in enumerate(reversed(shown)):
         rise = trace.rise(zero) if trace.label in READY else None
-        if rise is not None and rise <= end:
-            cycles = (rise - zero) / period
+        if rise is not None:
+            cycles, inside = (rise - zero) / period, rise <= end
+            text = f"{cycles:.0f}" if inside else f"{cycles:.0f} →"
             axes.annotate(
-                f"{cycles:.0f}", (cycles, row + 0.3), xytext=(-4, 0), textcoords="offset points",
+                text, (cycles if inside else (end - zero) / period, row + 0.3),
+                xytext=(-4, 0), textcoords="offset points",
                 ha="right", va="center", fontsize=8.5, color=CORE, fontweight="bold",
             )  # fmt: skip
     labels = [trace.label for trace in reversed(shown)]

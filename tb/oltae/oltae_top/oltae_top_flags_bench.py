@@ -31,8 +31,6 @@ async def every_flag(dut: Any) -> None:
     cloud = np.array([[9, 2, -3], [-4, 8, 1], [5, -6, 7], [1, 1, -9]], dtype=np.int64) << 24
     turned = cloud @ np.diag([-1, -1, 1])  # by 180 degrees about z
     nearly = turned + np.eye(4, 3, dtype=np.int64)
-    turned = cloud @ np.diag([-1, -1, 1])  # by 180 degrees about z
-    nearly = turned + np.eye(4, 3, dtype=np.int64)
     thin = cloud >> [0, 11, 11]
     plain = CoreConfig(covariance=FULL)
     forbid = replace(plain, forbid_turns=True)
@@ -126,7 +124,7 @@ async def busy_writes(bench: Bench) -> None:
 
 
 async def not_built(bench: Bench) -> None:
-    """What this build has not is named by the write and by the frame; the full build has all but nothing."""
+    """What this build has not is named by the write and by every frame run so; the full build has it all."""
     wish = Oltae.CONFIG.encode(WEIGHTED=1, REAPPLY=1, COVARIANCE=1)
     await bench.drive(lambda d: d.write(Oltae.CONFIG, wish))
     kept = await bench.drive(lambda d: d.read(Oltae.CONFIG))

@@ -3,6 +3,7 @@
 
 from __future__ import annotations
 
+import os
 from collections.abc import Sequence
 from typing import Any
 
@@ -15,6 +16,8 @@ from relnav.registers import Oltae
 
 from tb.common import clocks
 from tb.oltae.environment import FULL, Bench, State, configured, good, reached
+
+STEP = int(os.environ.get("STEP", "7"))  # clocks of COMPUTE between two resets
 
 
 @cocotb.test()
@@ -89,11 +92,10 @@ async def soft_reset_in_every_state(dut: Any) -> None:
         frame = good(bench.rng, 5)
         bench.bus.source.pause = True
         await bench.drive(lambda d, f=frame: configured(d, f.frac).feed(beats_of(f)))
-        start = bench.beats
-        await reached(bench, count)
+        taken = await reached(bench, count)
         await reset()
         await bench.drive(OltaeDriver.clear_flags)
-        rest = len(beats_of(frame)) - (bench.beats - start)
+        rest = len(beats_of(frame)) - taken
         bench.bus.source.pause = False
         await clocks.tick(dut, 3 * rest + 20)
         if rest % 3:
@@ -111,9 +113,9 @@ async def soft_reset_in_every_state(dut: Any) -> None:
                 bench.last = got
         await bench.solve(good(bench.rng))
 
-    # COMPUTE
-    for delay in range(0, 180, 7):
-        weights = FULL and delay % 2 == 1
+    # COMPUTE, to a few clocks past its end
+    for number, delay in enumerate(range(0, (bench.last.cycles_all or 0) + 2 * STEP, STEP)):
+        weights = FULL and number % 2 == 1
         frame = good(bench.rng, 3, weights)
         await bench.drive(
             lambda d, f=frame: d.configure(CoreConfig(covariance=FULL), frac=f.frac, weighted=f.w is not None)
@@ -123,9 +125,9 @@ async def soft_reset_in_every_state(dut: Any) -> None:
             await FallingEdge(dut.clk)
         await clocks.tick(dut, delay)
         await reset()
-        if delay % 5 == 0:
+        if number % 4 == 0:
             await whole_groups(bench, bench.model.run(frame, CoreConfig(covariance=FULL)))
-        await bench.solve(good(bench.rng, 3, FULL and delay % 3 == 0))
+        await bench.solve(good(bench.rng, 3, FULL and number % 3 == 0))
     assert caught == set(State)
 
 

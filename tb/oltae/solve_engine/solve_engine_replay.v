@@ -8,7 +8,7 @@ module solve_engine_replay (
     input  wire rst,
     output wire done
 );
-  wire forbid_turns, item_valid, item_first, item_low, redrain;
+  wire forbid_turns, reapply, item_valid, item_first, item_low, redrain;
   wire [4:0] item_address;
   wire [47:0] item_value;
   wire write_valid, q_done, pose_done, all_done, chosen, rank_deficient, ill_conditioned, saturated;
@@ -22,6 +22,7 @@ module solve_engine_replay (
       .forbid_turns(forbid_turns),
       .item_valid(item_valid),
       .covariance(1'b1),
+      .reapply(reapply),
       .item_first(item_first),
       .item_low(item_low),
       .redrain(redrain),
@@ -41,12 +42,12 @@ module solve_engine_replay (
   );
 
   replay #(
-      .IN_BITS (1 + 1 + 1 + 1 + 5 + 48),
+      .IN_BITS (1 + 1 + 1 + 1 + 1 + 5 + 48),
       .OUT_BITS(1 + 6 + 32 + 3 + 1 + 2 + 3)
   ) u_replay (
       .clk(clk),
       .rst(rst),
-      .word({forbid_turns, item_valid, item_first, item_low, item_address, item_value}),
+      .word({reapply, forbid_turns, item_valid, item_first, item_low, item_address, item_value}),
       // an index without a write is unknown and not compared
       .result({write_valid | chosen, write_index & {6{write_valid}}, write_data & {32{write_valid}}, q_done, pose_done, all_done, chosen, turn & {2{chosen}}, rank_deficient & chosen, ill_conditioned & chosen, saturated}),
       .done(done)

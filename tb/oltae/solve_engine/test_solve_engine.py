@@ -15,7 +15,7 @@ from tb.common.replay import run
 from tb.common.vectors import pack
 from tb.oltae.moments import items, random_cloud
 
-PERIOD = 900  # cycles from one frame's first item to the next one's
+PERIOD = 1100  # cycles from one frame's first item to the next one's
 WIDTHS = [6, 32, 1, 1, 1, 1, 2, 1, 1, 1]
 
 
@@ -34,8 +34,9 @@ def test_solve_engine_matches_the_model(frames: int, simulator: str, tmp_path: P
     for _ in range(frames):
         forbid = rng.random() < 0.2
         cloud = random_cloud(rng)
-        solver = Solver(forbid_turns=forbid)
-        idle = int(forbid) << 56
+        reapply = rng.random() < 0.4
+        solver = Solver(forbid_turns=forbid, reapply=reapply)
+        idle = int(reapply) << 57 | int(forbid) << 56
         frame = [idle] * PERIOD
         stream = items(cloud)
         # the second drain answers `redrain` as late as the hardware ever does
@@ -45,6 +46,8 @@ def test_solve_engine_matches_the_model(frames: int, simulator: str, tmp_path: P
                 continue
             solver.hold(item.address, item.value, item.low)
             cycle = number if not item.low else program.redrain + DRAIN_LATENCY + number - first_low
+            if item.low and reapply:
+                cycle += program.return_cycle - program.call_cycle
             frame[cycle] = idle | pack(
                 [(1, 1), (int(number == 0), 1), (int(item.low), 1), (item.address, 5), (packed(item.value), 48)]
             )
@@ -52,7 +55,7 @@ def test_solve_engine_matches_the_model(frames: int, simulator: str, tmp_path: P
         expected.append(solver)
         stimulus += frame
     top = Path(__file__).parent / "solve_engine_replay.v"
-    rows = run(top, ["arith", "oltae"], simulator, tmp_path, stimulus, 57, WIDTHS, {})
+    rows = run(top, ["arith", "oltae"], simulator, tmp_path, stimulus, 58, WIDTHS, {})
     for number, solver in enumerate(expected):
         got: dict[int, int] = {}
         marks = [0, 0, 0]
