@@ -17,6 +17,7 @@ ROOT = Path(__file__).resolve().parent.parent
 sys.path.insert(0, str(ROOT))
 
 from sim.runner import RTL, missing, verilator_folder  # noqa: E402 (the path is set above)
+from sim.sources import reachable  # noqa: E402
 
 WAIVERS = ROOT / "sim" / "verilator_waivers.vlt"
 
@@ -38,9 +39,10 @@ def verilator(module: Path, folders: list[str]) -> str:
 
 def icarus(module: Path, folders: list[str]) -> str:
     """Icarus' elaboration as Verilog-2005; its remarks on time scales don't matter, no module has one."""
-    search = [f"-y{folder}" for folder in folders]
     options = ["-g2005", "-Wall", "-Wno-timescale", "-Irtl/include", "-tnull", "-s", module.stem]
-    return run(["iverilog", *options, *search, str(module)])
+    # by name, not with -y: the preprocessor of Icarus 11 crashes on a library file that includes a guarded header twice
+    files = [file for folder in folders for file in sorted((ROOT / folder).glob("*.v"))]
+    return run(["iverilog", *options, *(str(f.relative_to(ROOT)) for f in reachable(module.stem, files))])
 
 
 def yosys(modules: list[Path]) -> str:

@@ -99,7 +99,8 @@ module dot_lane #(
 
   wire take_own = own_reference & live_2 & (first_2 | ~started);
   wire signed [13:0] reference_now =
-      take_own ? {exponent[12], exponent} : ~first_2 | own_reference ? reference_3 : probed_reference ? {probe[12], probe} : reference;
+      take_own ? {exponent[12], exponent} : ~first_2 | own_reference ? reference_3 :
+      probed_reference ? {probe[12], probe} : reference;
   // Complement of the distance, 15 bits: the difference of a 14-bit and a 13-bit number. As a sum with the registered
   // exponent first, multiplexer, complement and adder are one LUT a bit.
   wire signed [14:0] nearness = {{2{exponent[12]}}, exponent} + {~reference_now[13], ~reference_now};

@@ -53,7 +53,7 @@ class OltaeCore:
             for pair in gram.drain():
                 centred = centring.run(gram.weight_sum, pair.moment, pair.first_i, pair.first_j)
                 for tag, value in butterfly.push(role(pair.lane), centred, (pair.slot, pair.lane)):
-                    slot, lane = tag  # type: ignore[misc]
+    
                     kind = LOW_KIND_OF_LANE.get(lane) if low else KIND_OF_LANE[lane]
                     if kind is not None:
                         yield 8 * slot + kind, normaliser.run(value, low, (lane == 2) - 2 * frame.frac), low

@@ -68,7 +68,10 @@ module moment_stream_replay #(
   ) u_replay (
       .clk(clk),
       .rst(rst),
-      .word({pair_valid, value_valid, low, pair_tag, value_tag, pair_scale, value_scale, weight_sum, moment, first_i, first_j, value}),
+      .word({
+        pair_valid, value_valid, low, pair_tag, value_tag, pair_scale, value_scale,
+        weight_sum, moment, first_i, first_j, value
+      }),
       .result({item_valid, item_tag, item_zero, item_mant, item_exp}),
       .done(done)
   );

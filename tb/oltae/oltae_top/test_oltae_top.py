@@ -22,7 +22,7 @@ BUILDS = {
 }
 # Icarus simulates some 3000 clocks a second, a twentieth of Verilator's
 THOROUGH = {"FRAMES": "100", "STEP": "7"}
-QUICK = {"FRAMES": "16", "STEP": "89"}
+QUICK = {"FRAMES": "14", "STEP": "149"}
 LONGEST = 65535
 
 

@@ -49,7 +49,11 @@ module solve_engine_replay (
       .rst(rst),
       .word({reapply, forbid_turns, item_valid, item_first, item_low, item_address, item_value}),
       // an index without a write is unknown and not compared
-      .result({write_valid | chosen, write_index & {6{write_valid}}, write_data & {32{write_valid}}, q_done, pose_done, all_done, chosen, turn & {2{chosen}}, rank_deficient & chosen, ill_conditioned & chosen, saturated}),
+      .result({
+        write_valid | chosen,
+        write_index & {6{write_valid}}, write_data & {32{write_valid}}, q_done, pose_done, all_done,
+        chosen, turn & {2{chosen}}, rank_deficient & chosen, ill_conditioned & chosen, saturated
+      }),
       .done(done)
   );
 endmodule
