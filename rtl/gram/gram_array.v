@@ -55,6 +55,7 @@ module gram_array #(
     // sums
     output wire        [   `RELNAV_W(WEIGHTED)-1:0] weight_sum,
     output wire        [         `RELNAV_COUNT-1:0] point_count,
+    output wire        [         `RELNAV_COUNT-1:0] used_count,      // points whose weight is not 0
     output wire        [6*`RELNAV_M1(WEIGHTED)-1:0] first_moments  // {b_z, a_z, b_y, a_y, b_x, a_x}
 );
   localparam M1_BITS = `RELNAV_M1(WEIGHTED);
@@ -134,7 +135,8 @@ module gram_array #(
       .point(beat_valid && beat_ready && beat_index == 2'd2),
       .weight(beat_weight),
       .weight_sum(weight_sum),
-      .count(point_count)
+      .count(point_count),
+      .used(used_count)
   );
 
   first_moments #(

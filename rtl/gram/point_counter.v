@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Number of points and sum of their weights; both right one clock after a point's last beat. Unweighted the two are one counter.
+// Number of points, of points that count (weight not 0), and sum of the weights; right one clock after a point's last beat.
+// Without weights the three are one counter.
 `resetall
 `default_nettype none
 
@@ -13,7 +14,8 @@ module point_counter #(
     input  wire                       point,
     input  wire [               15:0] weight,
     output wire [WEIGHT_SUM_BITS-1:0] weight_sum,
-    output reg  [               15:0] count
+    output reg  [               15:0] count,
+    output wire [               15:0] used
 );
   always @(posedge clk)
     if (rst || clear) count <= 0;
@@ -22,12 +24,18 @@ module point_counter #(
   generate
     if (WEIGHTED != 0) begin : g_weights
       reg [WEIGHT_SUM_BITS-1:0] sum;
+      reg [15:0] counted;
+      always @(posedge clk)
+        if (rst || clear) counted <= 0;
+        else if (point && weight != 16'd0) counted <= counted + 16'd1;
+      assign used = counted;
       always @(posedge clk)
         if (rst || clear) sum <= 0;
         else if (point) sum <= sum + {{WEIGHT_SUM_BITS - 16{1'b0}}, weight};
       assign weight_sum = sum;
     end else begin : g_count
       assign weight_sum = count;
+      assign used = count;
       /* verilator lint_off UNUSEDSIGNAL */
       wire unused = &weight;
       /* verilator lint_on UNUSEDSIGNAL */

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Feeds the integers that are not pairs into the moment stream, in the nine clocks after the last pair:
-//   W, m_a x y z, m_b x y z, n, variance       m = m' + W 2^15 undoes the shift of the inputs (see gram_array)
+//   W, m_a x y z, m_b x y z, n (points whose weight is not 0), variance       m = m' + W 2^15 undoes the shift of the inputs (see gram_array)
 // Each goes with its stream address and the exponent of its unit: the inputs' binary point for m, 0 for counts, the binary32's own
 // for the variance (denormals count as zero). Values are prepared a clock ahead: one multiplexer, one adder.
 //
@@ -16,7 +16,7 @@ module value_feeder #(
     input  wire                                     clear,
     input  wire                                     pair_last,
     input  wire        [   `RELNAV_W(WEIGHTED)-1:0] weight_sum,
-    input  wire        [         `RELNAV_COUNT-1:0] point_count,
+    input  wire        [         `RELNAV_COUNT-1:0] used_count,
     input  wire        [6*`RELNAV_M1(WEIGHTED)-1:0] first_moments,   // {b_z, a_z, b_y, a_y, b_x, a_x}
     input  wire signed [                      11:0] moment_scale,    // -FRAC
     input  wire        [                      31:0] variance,
@@ -55,7 +55,7 @@ module value_feeder #(
 
     if (is_moment) value <= moment + {{(BITS - 15 - `RELNAV_W(WEIGHTED)) {1'b0}}, weight_sum, 15'd0};
     else if (next == 4'd1) value <= {{(BITS - `RELNAV_W(WEIGHTED)) {1'b0}}, weight_sum};
-    else if (next == 4'd8) value <= {{(BITS - `RELNAV_COUNT) {1'b0}}, point_count};
+    else if (next == 4'd8) value <= {{(BITS - `RELNAV_COUNT) {1'b0}}, used_count};
     else value <= denormal ? {BITS{1'b0}} : {{(BITS - 24) {1'b0}}, 1'b1, variance[22:0]};
     value_scale <= is_moment ? moment_scale : next == 4'd9 ? {4'd0, variance[30:23]} - 12'd150 : 12'd0;
     case (next)

@@ -122,7 +122,7 @@ module oltae_core #(
   wire signed [`RELNAV_M2(WEIGHTED)-1:0] pair_moment;
   wire signed [`RELNAV_M1(WEIGHTED)-1:0] pair_first_i, pair_first_j;
   wire [`RELNAV_W(WEIGHTED)-1:0] weight_sum;
-  wire [`RELNAV_COUNT-1:0] point_count;
+  wire [`RELNAV_COUNT-1:0] point_count, used_count;
   wire [6*`RELNAV_M1(WEIGHTED)-1:0] first_moments;
   wire flush = clear | soft_reset;
   wire redrain;
@@ -152,6 +152,7 @@ module oltae_core #(
       .pair_first_j(pair_first_j),
       .weight_sum(weight_sum),
       .point_count(point_count),
+      .used_count(used_count),
       .first_moments(first_moments)
   );
 
@@ -171,7 +172,7 @@ module oltae_core #(
       .clear(flush),
       .pair_last(pair_last & pair_valid & ~low_pass),
       .weight_sum(weight_sum),
-      .point_count(point_count),
+      .used_count(used_count),
       .first_moments(first_moments),
       .moment_scale(first_scale),
       .variance(config_variance),

@@ -42,10 +42,11 @@ def random_weights(rng: random.Random, n: int) -> Integers:
     return np.array([draw() for _ in range(n)], dtype=np.int64)
 
 
-def random_config(rng: random.Random) -> CoreConfig:
-    """Turns forbidden or not, variance given or not."""
+def random_config(rng: random.Random, full: bool = True) -> CoreConfig:
+    """Turns forbidden or not, variance given or not; re-applied and with covariances where that is built."""
     variance = rng.choice([0.0, 0.0, 1.0, 1e-12, 3e20])
-    return CoreConfig(forbid_turns=rng.random() < 0.25, variance=variance)
+    reapply, covariance = full and rng.random() < 0.4, full and rng.random() < 0.8
+    return CoreConfig(rng.random() < 0.25, reapply, covariance, variance)
 
 
 def rotation(rng: np.random.Generator, degrees: float) -> NDArray[np.float64]:

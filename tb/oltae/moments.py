@@ -44,7 +44,10 @@ def random_cloud(rng: random.Random) -> Moments:
     n = rng.choice([3, 4, 10, 50])
     axis = [rng.gauss(0, 1) for _ in range(3)]
     length = math.sqrt(sum(x * x for x in axis))
-    r = rotation([x / length for x in axis], rng.choice([0.0, 1e-6, 0.01, 1.0, 1.9, 3.0, math.pi, rng.uniform(0, math.pi)]))
+    r = rotation(
+        [x / length for x in axis],
+        rng.choice([0.0, 1e-6, 0.01, 1.0, 1.9, 3.0, math.pi, rng.uniform(0, math.pi)]),
+    )
     size = 2.0 ** rng.uniform(4, 28)
     shape = [rng.choice([1.0, 1.0, 0.1, 1e-3]) for _ in range(3)]
     offset = [rng.uniform(-1, 1) * rng.choice([0, 2.0**29]) for _ in range(3)]
@@ -58,7 +61,12 @@ def random_cloud(rng: random.Random) -> Moments:
     for _ in range(n):
         p = [rng.gauss(0, 0.5) * size * s for s in shape]
         a.append([clip(p[i] + offset[i]) for i in range(3)])
-        b.append([clip(sum(r[i][j] * p[j] for j in range(3)) + shift[i] + noise * rng.gauss(0, 1)) for i in range(3)])
+        b.append(
+            [
+                clip(sum(r[i][j] * p[j] for j in range(3)) + shift[i] + noise * rng.gauss(0, 1))
+                for i in range(3)
+            ]
+        )
     w = [1] * n if rng.random() < 0.5 else [rng.randrange(1, 1 << 16) for _ in range(n)]
     variance = rng.choice([(0, 0), (1 << 33, rng.randint(-60, 20))])
     return Moments(a, b, w, rng.choice([0, 16, -64, 95]), variance)
@@ -86,7 +94,9 @@ def items(cloud: Moments) -> list[Item]:
         return total * sum(k * x * y for k, x, y in zip(w, u, v, strict=True)) - first(u) * first(v)
 
     a, b = columns[0::2], columns[1::2]
-    pairs: list[tuple[int, int | None, int | None, int, int]] = []  # slot, place, place of the low limb, value, doubling
+    pairs: list[
+        tuple[int, int | None, int | None, int, int]
+    ] = []  # slot, place, place of the low limb, value, doubling
     for i in range(3):
         sa, sb = central(a[i], a[i]), central(b[i], b[i])
         pairs.append((i, pose.KIND_T, statistics.KIND_T_LOW, sa + sb, 0))
@@ -101,7 +111,9 @@ def items(cloud: Moments) -> list[Item]:
         pairs.append((i, pose.KIND_P, statistics.KIND_P_LOW, bij + bji, 0))
         pairs.append((i, pose.KIND_N, statistics.KIND_N_LOW, bij - bji, 0))
     normaliser = Normaliser()
-    found = [Item(8 * i + p, normaliser.run(v, False, d - 2 * frac)) for i, p, _, v, d in pairs if p is not None]
+    found = [
+        Item(8 * i + p, normaliser.run(v, False, d - 2 * frac)) for i, p, _, v, d in pairs if p is not None
+    ]
     found.append(Item(pose.ITEM_W, normaliser.run(total)))
     found += [Item(8 * i + pose.KIND_MA, normaliser.run(first(a[i]), False, -frac)) for i in range(3)]
     found += [Item(pose.ITEM_MB + i, normaliser.run(first(b[i]), False, -frac)) for i in range(3)]

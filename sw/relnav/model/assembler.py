@@ -9,13 +9,15 @@ cycle where its operands, the write port and the divider are free: the RTL has n
 from __future__ import annotations
 
 from dataclasses import dataclass, field
+from functools import cached_property
 
 LATENCY = 8  # last slot -> first slot that can read the result
 RAW_LATENCY = 6  # the same for a raw result, which skips normalisation
 RECIPROCAL_LATENCY = 11  # readable dot result -> readable reciprocal
 STREAM = 32  # X addresses from here on are the moment stream's bank
 
-ALL = frozenset({0, 1, 2, 3})
+LANES = 4
+ALL = frozenset(range(LANES))
 TURN = 4  # broadcast from the lane of the chosen turn
 
 # result kinds
@@ -28,6 +30,8 @@ NO_TRACK, TRACK_QUATERNION, TRACK_CENTROID, TRACK_AFRESH = range(4)
 NO_DIVIDE, DIVIDE, DIVIDE_UNTURNED, DIVIDE_TURNED = range(4)
 # result output
 NO_OUTPUT, SINGLE, TRIPLE, TRIPLE_COLUMN, PAIR, THIRD = range(6)
+# places of the queue that an output fills: lane 0 alone, or lanes 1 to 3
+OUTPUT_PLACES = {SINGLE: (0,), TRIPLE: (0, 1, 2), TRIPLE_COLUMN: (0, 1, 2), PAIR: (1, 2), THIRD: (2,)}
 # write
 NO_WRITE, PRIVATE, BROADCAST = range(3)
 
@@ -52,6 +56,10 @@ class Term:
     y_by_lane: bool = False
     only_estimated: bool = False
     only_first: bool = False
+
+
+Operands = tuple[tuple[int, int, bool], ...]
+"""(X address, Y address, negate) of the terms that count in a lane."""
 
 
 @dataclass
@@ -93,3 +101,38 @@ class Dot:
     def slots(self) -> int:
         """Slots used: a probed dot product runs twice."""
         return len(self.terms) * (2 if self.reference == REF_PROBED else 1)
+
+    @cached_property
+    def operands(self) -> dict[tuple[bool, bool], list[Operands]]:
+        """What each lane adds up, by (variance estimated, re-application), then by lane.
+
+        The addresses and signs that the RTL decodes in every slot, decoded once.
+        """
+
+        def of_lane(lane: int, estimated: bool, reapply: bool) -> Operands:
+            return tuple(
+                (
+                    term.x ^ (lane if term.x_by_lane else 0) ^ int(lane in term.alternate),
+                    term.y ^ (lane if term.y_by_lane else 0),
+                    lane in term.negate,
+                )
+                for term in self.terms
+                if lane in term.enable
+                and (estimated or not term.only_estimated)
+                and not (reapply and term.only_first)
+            )
+
+        cases = [(estimated, reapply) for estimated in (False, True) for reapply in (False, True)]
+        return {case: [of_lane(lane, *case) for lane in range(LANES)] for case in cases}
+
+    @cached_property
+    def used(self) -> list[list[int]]:
+        """By turn: the lanes whose sums anything takes. The others' need not be computed."""
+        if self.choose_turn or self.write == PRIVATE:
+            return [list(range(LANES))] * LANES
+        lanes = {place + (self.output != SINGLE) for place in OUTPUT_PLACES.get(self.output, ())}
+        if self.kind == FIXED:
+            lanes = {0}
+        broadcast = self.write == BROADCAST or self.divide != NO_DIVIDE
+        sources = [(turn if self.source == TURN else self.source) for turn in range(LANES)]
+        return [sorted(lanes | ({source} if broadcast else set())) for source in sources]

@@ -4,6 +4,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
+from typing import cast
 
 from relnav import words
 from relnav.model import pose_program as pose
@@ -49,19 +50,22 @@ class OltaeCore:
         gram = GramArray(self.weighted)
         gram.add(frame.a, frame.b, frame.w if self.weighted else None)
         centring, butterfly, normaliser = Centring(self.words), Butterfly(self.words), Normaliser()
+        moments: list[tuple[int, int, int]] = []  # slot, lane, value: the second drain repeats the first
+        for pair in gram.drain():
+            centred = centring.run(gram.weight_sum, pair.moment, pair.first_i, pair.first_j)
+            for tag, value in butterfly.push(role(pair.lane), centred, (pair.slot, pair.lane)):
+                slot, lane = cast(tuple[int, int], tag)
+                moments.append((slot, lane, value))
         for low in (False, True):
-            for pair in gram.drain():
-                centred = centring.run(gram.weight_sum, pair.moment, pair.first_i, pair.first_j)
-                for tag, value in butterfly.push(role(pair.lane), centred, (pair.slot, pair.lane)):
-    
-                    kind = LOW_KIND_OF_LANE.get(lane) if low else KIND_OF_LANE[lane]
-                    if kind is not None:
-                        yield 8 * slot + kind, normaliser.run(value, low, (lane == 2) - 2 * frame.frac), low
+            for slot, lane, value in moments:
+                kind = LOW_KIND_OF_LANE.get(lane) if low else KIND_OF_LANE[lane]
+                if kind is not None:
+                    yield 8 * slot + kind, normaliser.run(value, low, (lane == 2) - 2 * frame.frac), low
         first = [m + (gram.weight_sum << 15) for m in gram.first_moments]
         values = [(pose.ITEM_W, gram.weight_sum, 0)]
         values += [(8 * axis + pose.KIND_MA, first[2 * axis], -frame.frac) for axis in range(3)]
         values += [(pose.ITEM_MB + axis, first[2 * axis + 1], -frame.frac) for axis in range(3)]
-        values.append((pose.ITEM_COUNT, gram.point_count, 0))
+        values.append((pose.ITEM_COUNT, gram.used_count, 0))
         values.append((pose.ITEM_VARIANCE, *from_binary32(config.variance_word(frame.weight_scale))))
         for address, value, scale in values:
             yield address, normaliser.run(value, False, scale), False

@@ -37,6 +37,10 @@ DRAIN_ORDER = (
     *((slot, lane) for slot in (0, 2, 1) for lane in (3, 4, 5, 6)),
 )
 
+#: components i and j of the pairs, in that order
+FIRST, SECOND = (list(c) for c in zip(*(pair_components(*key) for key in DRAIN_ORDER), strict=True))
+BLOCK = 4096  # points summed at a time
+
 
 @dataclass(frozen=True)
 class Pair:
@@ -81,6 +85,7 @@ class GramArray:
         """Zero every sum."""
         self.weight_sum = 0
         self.point_count = 0
+        self.used_count = 0  # points whose weight is not 0
         self._first = [0] * 6
         # limb sums of each pair: high, low, both, and low's second set
         self._sums = {key: [0, 0, 0, 0] for key in DRAIN_ORDER}
@@ -102,6 +107,7 @@ class GramArray:
         if n and not (weights.min() >= 0 and weights.max() < 1 << words.WEIGHT):
             raise ValueError("a weight does not fit 16 bits")
         self.point_count += n
+        self.used_count += int(np.count_nonzero(weights))
         if self.point_count >= 1 << words.COUNT:
             raise ValueError("a frame has at most 65535 points")
         self.weight_sum += int(weights.sum())
@@ -114,19 +120,18 @@ class GramArray:
         for c in range(6):
             # 65535 values of up to 2^47 each: sum the upper and the lower halves apart, in 64 bits both.
             self._first[c] += (int((values[:, c] >> 24).sum()) << 24) + int((values[:, c] & 0xFFFFFF).sum())
-        for slot, lane in DRAIN_ORDER:
-            i, j = pair_components(slot, lane)
-            # numpy's 64 bits hold 65535 products of up to 2^32
-            both = (v1[:, i] + v0[:, i]) * (high[:, j] + low[:, j])
-            products = (
-                v1[:, i] * high[:, j] + v2[:, i] * low[:, j],
-                v0[:, i] * low[:, j],
-                both + v2[:, i] * low[:, j],
-                v2[:, i] * high[:, j],
-            )
-            sums = self._sums[slot, lane]
-            for k, product in enumerate(products):
-                sums[k] = wrap(sums[k] + int(product.sum()))
+        for start in range(0, n, BLOCK):
+            block = slice(start, start + BLOCK)
+            w0, w1, w2 = v0[block][:, FIRST], v1[block][:, FIRST], v2[block][:, FIRST]
+            h, lo = high[block][:, SECOND], low[block][:, SECOND]
+            # numpy's 64 bits hold 65535 products of up to 2^33
+            upper = w2 * lo
+            products = (w1 * h + upper, w0 * lo, (w1 + w0) * (h + lo) + upper, w2 * h)
+            totals = np.stack([product.sum(axis=0) for product in products], axis=1).tolist()
+            for key, total in zip(DRAIN_ORDER, totals, strict=True):
+                sums = self._sums[key]
+                for k, value in enumerate(total):
+                    sums[k] = wrap(sums[k] + value)
 
     @property
     def first_moments(self) -> list[int]:

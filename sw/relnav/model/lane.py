@@ -7,7 +7,7 @@ is aligned with one floor, the sum is exact, and one more floor makes the result
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from collections.abc import Iterable, Sequence
 
 from relnav import words
 
@@ -42,47 +42,66 @@ def wrapped(exponent: int) -> int:
     return (exponent + half) % (2 * half) - half
 
 
-@dataclass
+Operands = Iterable[tuple[int, int, bool]]
+"""(X address, Y address, negate) of each term."""
+
+
 class DotLane:
-    """Accumulator of one lane. The reference is given, or the first enabled, non-zero term's.
+    """One lane: a dot product of registers.
 
     A wide lane drops no product bits: its accumulator's unit is 2**DROP finer.
     """
 
-    wide: bool = False
-    acc: int = 0
-    reference: int | None = None
-    saturated: bool = False
+    __slots__ = ("acc", "drop", "limit", "reference", "saturated")
 
-    def clear(self, reference: int | None) -> None:
-        """Begin a dot product; ``reference`` None means: that of the first enabled, non-zero term."""
+    def __init__(self, wide: bool = False) -> None:
+        self.drop = 0 if wide else DROP  # product bits below the accumulator's unit
+        self.limit = 1 << ((words.LANE_WIDE_ACC if wide else ACC) - 1)
         self.acc = 0
+        self.reference: int | None = None
+        self.saturated = False
+
+    def run(self, bank: Sequence[LaneValue], operands: Operands, reference: int | None) -> None:
+        """acc = sum of +/- floor(x*y / 2**(reference + drop)).
+
+        ``reference`` None means: the exponent of the first term that is not zero. The microprogram must not
+        overflow the accumulator, nor give a term above the reference.
+        """
+        acc, drop, limit = 0, self.drop, self.limit
+        for x_address, y_address, negate in operands:
+            x, x_exponent = bank[x_address]
+            y, y_exponent = bank[y_address]
+            if not x or not y:
+                continue
+            exponent = x_exponent + y_exponent
+            if reference is None:
+                reference = exponent
+            shift = reference - exponent
+            if shift < 0:
+                raise LaneOverflow(f"term exponent {exponent} above the reference {reference}")
+            aligned = (x * y) >> (drop + (shift if shift < SHIFTS else SHIFTS - 1))
+            acc += -aligned if negate else aligned
+            if not -limit <= acc < limit:
+                raise LaneOverflow("accumulator overflow")
+        self.acc = acc
         self.reference = reference
 
-    @property
-    def drop(self) -> int:
-        """Product bits below the accumulator's unit."""
-        return 0 if self.wide else DROP
+    def run_probed(self, bank: Sequence[LaneValue], operands: Operands) -> None:
+        """The same with the largest exponent of the terms as reference: found by a first pass."""
+        exponents = [bank[x][1] + bank[y][1] for x, y, _ in operands if bank[x][0] and bank[y][0]]
+        self.run(bank, operands, max(exponents, default=None))
 
-    def add(self, value: int) -> None:
-        """Accumulate; the microprogram must not overflow the accumulator."""
-        self.acc += value
-        bits = words.LANE_WIDE_ACC if self.wide else ACC
-        if not -(1 << (bits - 1)) <= self.acc < 1 << (bits - 1):
-            raise LaneOverflow("accumulator overflow")
-
-    def term(self, x: LaneValue, y: LaneValue, negate: bool) -> None:
-        """acc +/-= floor(x*y / 2**(reference + drop))."""
-        if x[0] == 0 or y[0] == 0:
+    def run_fixed(self, bank: Sequence[LaneValue], operands: Operands, reference: int) -> None:
+        """The same for a fixed-point output, one product: above the reference it saturates."""
+        ((x_address, y_address, _),) = operands
+        (x, x_exponent), (y, y_exponent) = bank[x_address], bank[y_address]
+        if not x or not y or x_exponent + y_exponent <= reference:
+            self.run(bank, operands, reference)
             return
-        exponent = x[1] + y[1]
-        if self.reference is None:
-            self.reference = exponent
-        shift = self.reference - exponent
-        if shift < 0:
-            raise LaneOverflow(f"term exponent {exponent} above the reference {self.reference}")
-        aligned = (x[0] * y[0]) >> self.drop >> (shift if shift < SHIFTS else SHIFTS - 1)
-        self.add(-aligned if negate else aligned)
+        self.saturated = True
+        self.reference = reference
+        top = DROP - self.drop + ACC - 1
+        self.acc = -1 << top if (x < 0) != (y < 0) else 1 << (top - 1)
 
     def result(self, half: bool = False, clamp: bool = False) -> LaneValue:
         """Normalised sum; ``half`` divides by two, ``clamp`` makes a negative sum zero."""
@@ -104,14 +123,6 @@ class DotLane:
         if not -(1 << (MANT - 1)) <= mantissa < 1 << (MANT - 1):
             raise LaneOverflow("raw result too wide")
         return mantissa, wrapped(self.reference + DROP + RAW)
-
-    def overflows(self, x: LaneValue, y: LaneValue) -> bool:
-        """Fixed-point output only: a term above the accumulator saturates."""
-        if x[0] == 0 or y[0] == 0 or self.reference is None or x[1] + y[1] <= self.reference:
-            return False
-        self.saturated = True
-        self.acc = -1 << (DROP - self.drop + ACC - 1) if (x[0] < 0) != (y[0] < 0) else 1 << (DROP - self.drop + ACC - 2)
-        return True
 
     def fixed(self) -> int:
         """Q15.16 of an accumulator whose narrow unit is 2**-17: half up, saturated to 32 bits."""

@@ -10,7 +10,7 @@ from relnav.model.assembler import (
     NO_DIVIDE,
     NO_OUTPUT,
     NO_WRITE,
-    PAIR,
+    OUTPUT_PLACES,
     PRIVATE,
     RAW,
     RECIPROCAL_LATENCY,
@@ -20,12 +20,9 @@ from relnav.model.assembler import (
     REF_QUATERNION,
     REF_ROTATED,
     SINGLE,
-    THIRD,
     TRACK_AFRESH,
     TRACK_CENTROID,
     TRACK_QUATERNION,
-    TRIPLE,
-    TRIPLE_COLUMN,
     Dot,
 )
 
@@ -36,8 +33,6 @@ SCALED = {
     TRACK_AFRESH: (REF_QUATERNION, REF_ROTATED),
     TRACK_CENTROID: (REF_CENTROID, REF_ROTATED),
 }
-# places of the queue that an output fills: lane 0 alone, or lanes 1 to 3
-OUTPUT_PLACES = {SINGLE: (0,), TRIPLE: (0, 1, 2), TRIPLE_COLUMN: (0, 1, 2), PAIR: (1, 2), THIRD: (2,)}
 FIXED_STORE, FLOAT_STORE = 6, 9  # last slot -> cycle of the (first) result memory write
 
 

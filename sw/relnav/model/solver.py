@@ -7,13 +7,12 @@ from dataclasses import dataclass, field
 from relnav import words
 from relnav.model import assembler as asm
 from relnav.model import pose_program as pose
+from relnav.model.assembler import LANES
 from relnav.model.binary32 import to_binary32
 from relnav.model.lane import ONE, ZERO, DotLane, LaneValue
 from relnav.model.reciprocal import reciprocal
 from relnav.model.rom import DRAIN_LATENCY, Program
-from relnav.model.schedule import OUTPUT_PLACES
 
-LANES = 4
 EXPONENT_FLOOR = -(1 << (words.EXPO - 1))
 MANT_POINT = words.MANT - 2  # ONE's exponent is -MANT_POINT
 
@@ -25,6 +24,7 @@ class Solver:
     forbid_turns: bool = False
     reapply: bool = False
     registers: list[list[LaneValue]] = field(default_factory=lambda: [[ZERO] * 64 for _ in range(LANES)])
+    lanes: list[DotLane] = field(default_factory=lambda: [DotLane(wide=lane == 0) for lane in range(LANES)])
     turn: int = 0
     moment_scale: int = EXPONENT_FLOOR
     cross_scale: int = EXPONENT_FLOOR
@@ -54,71 +54,74 @@ class Solver:
             if kind == pose.KIND_N:
                 self.cross_scale = max(self.cross_scale, value[1])
 
-    def reference(self, code: int, lane: int) -> int | None:
-        """Reference exponent of a dot product; None is the first term's own."""
-        return {
-            asm.OWN: None,
-            asm.REF_MOMENT: self.moment_scale - MANT_POINT + 1,
-            asm.REF_CROSS: (self.moment_scale if lane else self.cross_scale) - MANT_POINT,
-            asm.REF_QUATERNION: 2 * self.quaternion_scale + 4,  # |p|^2 / 2 may enter as a normalised value
-            asm.REF_UNIT: -63,
-            asm.REF_CENTROID: self.centroid_scale - MANT_POINT + 4,
-            asm.REF_ROTATED: 2 * self.quaternion_scale + self.centroid_scale + 35,
-            asm.REF_IMAGE: self.moment_scale + self.quaternion_scale + 6,
-            asm.REF_FORM: self.moment_scale + 2 * self.quaternion_scale + 42,
-            asm.REF_COFACTOR: 2 * self.moment_scale + 8,
-            asm.REF_NEWTON: self.moment_scale - MANT_POINT + 5,
-            asm.REF_FIXED: -17 - words.LANE_DROP,
-        }[code]
-
-    def operands(self, dot: asm.Dot, lane: int) -> list[tuple[LaneValue, LaneValue, bool]]:
-        """(x, y, negate) of the terms that count in a lane."""
-        found = []
-        for term in dot.terms:
-            if lane not in term.enable or (term.only_estimated and not self.estimated) or (term.only_first and self.reapply):
-                continue
-            x_address = term.x ^ (lane if term.x_by_lane else 0) ^ (lane in term.alternate)
-            y_address = term.y ^ (lane if term.y_by_lane else 0)
-            bank = self.registers[lane]
-            found.append((bank[x_address], bank[y_address], lane in term.negate))
-        return found
+    def reference(self, code: int, lane: int) -> int:
+        """Reference exponent of a dot product, from the scales of the frame."""
+        match code:
+            case asm.REF_MOMENT:
+                return self.moment_scale - MANT_POINT + 1
+            case asm.REF_CROSS:
+                return (self.moment_scale if lane else self.cross_scale) - MANT_POINT
+            case asm.REF_QUATERNION:
+                return 2 * self.quaternion_scale + 4  # |p|^2 / 2 may enter as a normalised value
+            case asm.REF_UNIT:
+                return -63
+            case asm.REF_CENTROID:
+                return self.centroid_scale - MANT_POINT + 4
+            case asm.REF_ROTATED:
+                return 2 * self.quaternion_scale + self.centroid_scale + 35
+            case asm.REF_IMAGE:
+                return self.moment_scale + self.quaternion_scale + 6
+            case asm.REF_FORM:
+                return self.moment_scale + 2 * self.quaternion_scale + 42
+            case asm.REF_COFACTOR:
+                return 2 * self.moment_scale + 8
+            case asm.REF_NEWTON:
+                return self.moment_scale - MANT_POINT + 5
+            case asm.REF_FIXED:
+                return -17 - words.LANE_DROP
+        raise ValueError(f"no reference {code}")
 
     def execute(self, dot: asm.Dot) -> None:
-        """One dot product in all lanes."""
-        sums = [DotLane(wide=lane == 0) for lane in range(LANES)]
-        for number, lane in enumerate(sums):
-            operands = self.operands(dot, number)
-            if dot.reference == asm.REF_PROBED:
-                exponents = [x[1] + y[1] for x, y, _ in operands if x[0] and y[0]]
-                lane.clear(max(exponents, default=None))
+        """One dot product in all lanes that anything is taken from."""
+        operands = dot.operands[self.estimated, self.reapply]
+        used = dot.used[self.turn]
+        for number in used:
+            lane, bank = self.lanes[number], self.registers[number]
+            if dot.reference == asm.OWN:
+                lane.run(bank, operands[number], None)
+            elif dot.reference == asm.REF_PROBED:
+                lane.run_probed(bank, operands[number])
+            elif dot.kind == asm.FIXED:
+                lane.run_fixed(bank, operands[number], self.reference(dot.reference, number))
             else:
-                lane.clear(self.reference(dot.reference, number))
-            for x, y, negate in operands:
-                if dot.kind != asm.FIXED or not lane.overflows(x, y):
-                    lane.term(x, y, negate)
+                lane.run(bank, operands[number], self.reference(dot.reference, number))
         if dot.choose_turn:
-            compared = [s.narrow >> words.RANK_BITS for s in sums]
+            compared = [lane.narrow >> words.RANK_BITS for lane in self.lanes]
             best = max(range(LANES), key=lambda k: (compared[k], -k))
             self.turn = 0 if self.forbid_turns else best
             self.determinant = compared[self.turn]
-        self.finish(dot, sums)
+        self.finish(dot, used)
 
-    def finish(self, dot: asm.Dot, sums: list[DotLane]) -> None:
+    def finish(self, dot: asm.Dot, used: list[int]) -> None:
         """Write, track, divide, output."""
         if dot.kind == asm.FIXED:
-            self.fixed_outputs[dot.output_index] = sums[0].fixed()
-            self.saturated |= sums[0].saturated
+            self.fixed_outputs[dot.output_index] = self.lanes[0].fixed()
+            self.saturated = self.lanes[0].saturated
             return
-        values = [s.raw() if dot.kind == asm.RAW else s.result(dot.half, dot.clamp) for s in sums]
+        values = [ZERO] * LANES
+        for number in used:
+            lane = self.lanes[number]
+            values[number] = lane.raw() if dot.kind == asm.RAW else lane.result(dot.half, dot.clamp)
         broadcast = values[self.turn if dot.source == asm.TURN else dot.source]
         suppressed = dot.only_turned and self.turn == 0
         dest = dot.dest | (8 if dot.turn_dest and self.turn == 0 else 0)
         if not suppressed:
-            for number in range(LANES):
-                if dot.write == asm.PRIVATE:
-                    self.registers[number][dest] = values[number]
-                elif dot.write == asm.BROADCAST:
-                    self.registers[number][dest] = broadcast
+            if dot.write == asm.PRIVATE:
+                for number, bank in enumerate(self.registers):
+                    bank[dest] = values[number]
+            elif dot.write == asm.BROADCAST:
+                for bank in self.registers:
+                    bank[dest] = broadcast
             if dot.track == asm.TRACK_QUATERNION and dest & ~3 == pose.P and broadcast[0]:
                 self.quaternion_scale = max(self.quaternion_scale, broadcast[1])
             if dot.track == asm.TRACK_AFRESH:
@@ -136,7 +139,7 @@ class Solver:
             self.outputs[dot.output_index] = values[0]
         elif dot.output != asm.NO_OUTPUT:
             stride = 3 if dot.output == asm.TRIPLE_COLUMN else 1
-            for place in OUTPUT_PLACES[dot.output]:
+            for place in asm.OUTPUT_PLACES[dot.output]:
                 self.outputs[dot.output_index + stride * place] = values[place + 1]
 
     def hold(self, address: int, value: LaneValue, low: bool = False) -> None:
@@ -148,9 +151,10 @@ class Solver:
 
     def run(self, program: Program) -> None:
         """The program in issue order; the schedule proves that the pipelined engine does the same."""
+        step = range(program.call, program.call + len(program.newton) if self.reapply else program.call)
         pending = True
-        for dot in program.in_order(self.reapply):
-            if pending and dot not in program.newton and dot.cycle > program.redrain + DRAIN_LATENCY:
+        for number, dot in enumerate(program.in_order(self.reapply)):
+            if pending and number not in step and dot.cycle > program.redrain + DRAIN_LATENCY:
                 pending = False
                 for address, value in self.low_limbs:
                     for bank in self.registers:

@@ -63,6 +63,7 @@ module gram_array_player #(
       .pair_first_j(pair_first_j),
       .weight_sum(weight_sum),
       .point_count(point_count),
+      .used_count(),  // its only user is the value feeder, tested with the core
       .first_moments(first_moments)
   );
 

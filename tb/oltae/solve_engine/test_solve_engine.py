@@ -49,7 +49,13 @@ def test_solve_engine_matches_the_model(frames: int, simulator: str, tmp_path: P
             if item.low and reapply:
                 cycle += program.return_cycle - program.call_cycle
             frame[cycle] = idle | pack(
-                [(1, 1), (int(number == 0), 1), (int(item.low), 1), (item.address, 5), (packed(item.value), 48)]
+                [
+                    (1, 1),
+                    (int(number == 0), 1),
+                    (int(item.low), 1),
+                    (item.address, 5),
+                    (packed(item.value), 48),
+                ]
             )
         solver.run(program)
         expected.append(solver)
@@ -64,7 +70,9 @@ def test_solve_engine_matches_the_model(frames: int, simulator: str, tmp_path: P
             if cycle // PERIOD != number:
                 continue
             if chosen:
-                assert (turn, rank, ill) == (solver.turn, solver.rank_deficient, solver.ill_conditioned), number
+                assert (turn, rank, ill) == (solver.turn, solver.rank_deficient, solver.ill_conditioned), (
+                    number
+                )
             else:
                 got[index] = data
                 marks = [mark + bit for mark, bit in zip(marks, done, strict=True)]
