@@ -36,11 +36,10 @@ def make_case(family: str, number: int) -> Case:
     rng = np.random.default_rng([crc32(family.encode()), number])
     a, b = FAMILIES[family](rng)
     frac = int(rng.integers(FRAC_MIN, FRAC_MAX + 1))
-    weights = None if family == "unweighted many" else random_weights(rng, len(a))
-    # the variance is on the scale of the integers, so that covariances stay in binary32's range
-    variance = 0.0 if rng.random() < 0.3 else float(np.float32(2.0 ** rng.uniform(-10, 10) * 4.0**-frac))
-    if not 1e-37 < variance < 1e37:
-        variance = 0.0
+    weights = random_weights(rng, len(a))
+    # on the scale of the integers, where that is a binary32 number: covariances stay in range
+    variance = 0.0 if rng.random() < 0.3 else 2.0 ** rng.uniform(-10, 10) * 4.0**-frac
+    variance = float(np.float32(variance)) if 1e-37 < variance < 1e37 else 0.0
     return Case(family, number, QuantisedFrame(fit(a), fit(b), weights, frac), CoreConfig(variance=variance))
 
 
@@ -77,7 +76,9 @@ def angle(rng: Generator) -> float:
     if kind == 0:
         return float(np.radians(10.0 ** rng.uniform(-2, 2.2552)))
     if kind == 1:
-        return float(np.radians(rng.choice([0.01, 1, 30, 45, 60, 89.999, 90, 90.001, 120, 137, 150, 179, 179.5])))
+        return float(
+            np.radians(rng.choice([0.01, 1, 30, 45, 60, 89.999, 90, 90.001, 120, 137, 150, 179, 179.5]))
+        )
     return float(np.radians(rng.uniform(0.01, 179.7)))
 
 
@@ -93,7 +94,7 @@ def turned(rng: Generator, theta: float) -> FloatArray:
 
 
 def cloud(rng: Generator, n: int, ratios: FloatArray) -> FloatArray:
-    """n points about the origin of extent about 1, an ellipsoid of the given axes in a random attitude or along x, y, z."""
+    """n points about the origin: an ellipsoid of the given axes, random or along x, y, z."""
     kind = rng.integers(4)
     if kind == 0:
         raw = rng.uniform(-1, 1, (n, 3))
@@ -105,8 +106,10 @@ def cloud(rng: Generator, n: int, ratios: FloatArray) -> FloatArray:
     return shaped if rng.random() < 0.3 else shaped @ turned(rng, rng.uniform(0, np.pi)).T
 
 
-def placed(rng: Generator, a: FloatArray, rotation: FloatArray, size: float, noise: float, far: bool) -> Clouds:
-    """a and b = R a in units of the least bit, each moved on its own, far or not, with noise on b (relative to size)."""
+def placed(
+    rng: Generator, a: FloatArray, rotation: FloatArray, size: float, noise: float, far: bool
+) -> Clouds:
+    """a and b = R a + noise in bits, each moved on its own, far or not."""
     b = a @ rotation.T + noise * rng.normal(size=a.shape)
     room = max(2.0**31 - 2 * size, 0.0)
     reach = room if far else min(size * 10.0 ** rng.uniform(-3, 2), room)
@@ -167,7 +170,7 @@ def far_specks(rng: Generator) -> Clouds:
 
 
 def residual(rng: Generator) -> Clouds:
-    """Every turn leaves about 120 degrees: near the quaternions (+-1, +-1, +-1, +-1) / 2; few points, any shape."""
+    """Every turn leaves about 120 degrees: near the quaternions (+-1, +-1, +-1, +-1) / 2."""
     half = rng.choice([-0.5, 0.5], 4) + rng.normal(size=4) * rng.choice([0, 1e-9, 1e-3, 0.1])
     half /= np.linalg.norm(half)
     a = cloud(rng, int(rng.choice([3, 3, 4, 5, 30])), 2.0 ** -rng.uniform(0, 3, 3))
@@ -176,7 +179,7 @@ def residual(rng: Generator) -> Clouds:
 
 
 def boundary(rng: Generator) -> Clouds:
-    """The largest and the second largest determinant nearly equal: bisected to the angle where the turn changes."""
+    """The two largest determinants nearly equal: bisected to the angle where the turn changes."""
     a = cloud(rng, points(rng, 30), 2.0 ** -rng.uniform(0, 3, 3))
     axis = rng.normal(size=3)
     axis /= np.linalg.norm(axis)
@@ -199,7 +202,9 @@ def boundary(rng: Generator) -> Clouds:
 
 def ends(rng: Generator) -> Clouds:
     """Every component at an end of the range, or nearly."""
-    values = np.array([INPUT_MIN, INPUT_MAX, *rng.choice([0, -1, 1, INPUT_MIN + 1], rng.integers(0, 3))], float)
+    values = np.array(
+        [INPUT_MIN, INPUT_MAX, *rng.choice([0, -1, 1, INPUT_MIN + 1], rng.integers(0, 3))], float
+    )
     n = points(rng, 100)
     a = rng.choice(values, (n, 3))
     if rng.random() < 0.3:

@@ -17,6 +17,7 @@ from relnav.model.raw import RawResult, word_to_float
 from bench.clouds import Case
 
 UPPER = np.triu_indices(3)
+NOISY = 1e-3  # rms residual over rms extent from which the relative error of rss means something
 SMALLEST, LARGEST = 2.0**-126, 2.0**128  # normal binary32
 
 
@@ -27,7 +28,6 @@ class Errors:
     kappa:       cond M of the turn taken, exact;  size: |q|
     q:           |dq| / |q| of the stored binary32 words
     components:  components of q within 1 ulp of binary32
-    turned:      the same error in the turned points' frame: 2 |d theta|, angle of the difference of the rotations
     R:           largest |dR_ij|;  t: |dt| / (|R a_bar| + |b_bar|)
     rss:         |d rss| / rss;  floor: |d rss| / sum of w (|a - a_bar|^2 + |b - b_bar|^2)
     q_cov, t_cov: |dP| / |P|, Frobenius, against golden.py on the exact moments
@@ -73,14 +73,13 @@ def measure(core: OltaeCore, case: Case) -> Errors:
     rotation = np.array([[float(x) for x in row] for row in truth.R])
     mean_a = np.array([float(Fraction(x) * unit / moments.weight) for x in moments.first_a])
     mean_b = np.array([float(Fraction(x) * unit / moments.weight) for x in moments.first_b])
-    errors = replace(
-        errors,
+    found: dict[str, Any] = dict(
         R=float(np.abs(floats(raw.R).reshape(3, 3) - rotation).max()),
         t=translation_error(raw, truth, float(np.linalg.norm(mean_a) + np.linalg.norm(mean_b))),
         noise=float(np.sqrt(max(0.0, float(truth.rss / spread)))) if spread else None,
     )
-    errors = replace(errors, **q_errors(raw, truth), **rss_errors(raw, truth, spread))
-    return replace(errors, **covariance_errors(case, raw, truth, moments))
+    found |= q_errors(raw, truth) | rss_errors(raw, truth, spread)
+    return replace(errors, **(found | covariance_errors(case, raw, truth, moments)))
 
 
 def floats(words: tuple[int, ...]) -> FloatArray:
@@ -155,8 +154,8 @@ def covariance_errors(case: Case, raw: RawResult, truth: ExactPose, m: ExactMome
     attitude = golden.Attitude(scalar, vector, rotation, truth.turn, matrix, turned, numerator / det)
     given = case.config.variance
     variance = given if given else float(truth.rss) / (3 * m.n - 6)
-    if variance == 0.0 or not given and not (raw.rss and float(truth.rss) > 1e-6 * root**2 * unit**2):
-        return {}  # rss is at its floor
+    if not given and float(truth.rss) < NOISY**2 * m.weight * (root * unit) ** 2:
+        return {}  # rss is near its floor
     relative = variance / (root * unit) ** 2
     p_theta = golden.attitude_covariance(attitude, relative)
     jacobian = golden.gibbs_jacobian(np.array([float(x) for x in truth.q]))

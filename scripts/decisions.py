@@ -89,8 +89,8 @@ def conditioning() -> str:
         ("flat, turned in its plane by 180 - e rad, turns forbidden", CoreConfig(forbid_turns=True), flat_turned, (-9.0, 0.0)),
     )  # fmt: skip
     for name, config, make, (low, high) in cases:
-        found: list[tuple[float, tuple[str, ...], float]] = []
-        for power in np.linspace(low, high, 120):
+        found: list[tuple[float, float, tuple[str, ...], float]] = []
+        for power in np.linspace(low, high, 80):
             item = make(2.0**power)
             raw = OltaeCore().run(item, config)
             try:
@@ -98,14 +98,14 @@ def conditioning() -> str:
             except exact.Singular:
                 continue
             error = np.nan if raw.failed or truth.q is None else q_error(raw, truth)
-            found.append((truth.kappa, raw.flag_names, error))
-        clean = [k for k, flags, _ in found if not {"ILL_CONDITIONED", "RANK_DEFICIENT"} & set(flags)]
-        ill = [k for k, flags, _ in found if "ILL_CONDITIONED" in flags]
-        rank = [k for k, flags, _ in found if "RANK_DEFICIENT" in flags]
-        worst = max(e for _, flags, e in found if not {"ILL_CONDITIONED", "RANK_DEFICIENT"} & set(flags))
-        flagged = max((e for _, flags, e in found if "ILL_CONDITIONED" in flags), default=np.nan)
-        rows.append((name, span(max(clean), min(ill)), span(max(ill), min(rank)), f"{worst:.0e}", f"{flagged:.0e}"))
-    head = ("cloud", "ILL_CONDITIONED from kappa", "RANK_DEFICIENT from kappa", "q, worst unflagged", "q, worst ILL")
+            found.append((2.0**power, truth.kappa, raw.flag_names, error))
+        # the largest e with each flag
+        ill = max((f[:2] for f in found if "ILL_CONDITIONED" in f[2]))
+        rank = max((f[:2] for f in found if "RANK_DEFICIENT" in f[2]))
+        worst = max(f[3] for f in found if not {"ILL_CONDITIONED", "RANK_DEFICIENT"} & set(f[2]))
+        flagged = max(f[3] for f in found if "ILL_CONDITIONED" in f[2])
+        rows.append((name, at(ill), at(rank), f"{worst:.0e}", f"{flagged:.0e}"))
+    head = ("cloud", "ILL_CONDITIONED from", "RANK_DEFICIENT from", "q, worst unflagged", "q, worst ILL_CONDITIONED")
     return table(head, rows)
 
 
@@ -119,10 +119,9 @@ def flat_turned(e: float) -> QuantisedFrame:
     return quantise(make_frame(a, a @ np.array([[c, -s, 0], [s, c, 0], [0, 0, 1]]).T))
 
 
-def span(below: float, above: float) -> str:
-    """Where between two cases."""
-    low, high = sorted((below, above))
-    return f"{low:.1e} to {high:.1e}"
+def at(where: tuple[float, float]) -> str:
+    """e and the condition number there."""
+    return f"e = {where[0]:.1e}, kappa = {where[1]:.1e}"
 
 
 def wide_lane() -> str:
@@ -151,7 +150,7 @@ def residual_arithmetic(limbs: int, wide: bool) -> Iterator[None]:
         if not wide:
             solver.DotLane = lambda wide=False: DotLane()  # type: ignore[assignment,misc]
         if limbs == 1:
-            OltaeCore.items = lambda self, *given: (i for i in items(self, *given) if not i[2])  # type: ignore
+            OltaeCore.items = lambda self, *given: ((i, (0, 0) if low else v, low) for i, v, low in items(self, *given))  # type: ignore
         yield
     finally:
         solver.DotLane, OltaeCore.items = DotLane, items  # type: ignore[method-assign,misc]
@@ -329,10 +328,11 @@ def exponents(item: QuantisedFrame) -> list[int]:
     seen: list[int] = []
     finish = solver.Solver.finish
 
-    def watched(self: Any, dot: asm.Dot, sums: list[DotLane]) -> None:
-        finish(self, dot, sums)
+    def watched(self: Any, dot: asm.Dot, used: list[int]) -> None:
+        finish(self, dot, used)
         if dot.kind != asm.FIXED and not endless(self, dot):
-            values = [s.raw() if dot.kind == asm.RAW else s.result(dot.half, dot.clamp) for s in sums]
+            lanes = [self.lanes[number] for number in used]
+            values = [s.raw() if dot.kind == asm.RAW else s.result(dot.half, dot.clamp) for s in lanes]
             seen.extend(exponent for mantissa, exponent in values if mantissa)
             inverse = self.registers[0][dot.divide_dest] if dot.divide_dest is not None else solver.ZERO
             if inverse[0] and inverse[1] != 1200:  # 1/0

@@ -44,6 +44,8 @@ def main() -> int:
         ("full, weighted", {}, True, CoreConfig()),
         ("full, unweighted, CONFIG.COVARIANCE = 0", {}, False, CoreConfig(covariance=False)),
         ("full, weighted, CONFIG.COVARIANCE = 0", {}, True, CoreConfig(covariance=False)),
+        ("full, unweighted, CONFIG.REAPPLY = 1", {}, False, CoreConfig(reapply=True)),
+        ("full, weighted, CONFIG.REAPPLY = 1", {}, True, CoreConfig(reapply=True)),
         ("lean", LEAN, False, CoreConfig(covariance=False)),
     )
     lines = ["| build and mode | q | R and t | everything |", "|---|---:|---:|---:|"]

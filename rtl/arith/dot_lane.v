@@ -11,9 +11,11 @@
 // slot cycle | 0 read        | 1 multiply, add exponents | 2 sum of partial products, shift count | 3 align
 //            | 4 accumulate  | 5 count sign bits (or write raw) | 6 shift to 35 bits              | 7 result: write
 // Latency: a result is in `result` 7 clocks after its last slot's cycle, readable by the slot 8 clocks after.
+// Kept apart: flattened into the engine the mapper doubles logic on paths that it believes critical.
 `include "relnav_words.vh"
 `resetall
 `default_nettype none
+(* keep_hierarchy *)
 module dot_lane #(
     parameter LANE = 0,
     parameter WIDE = 0   // 1: drops no product bits and accumulates in 76

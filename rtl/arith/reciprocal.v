@@ -8,9 +8,11 @@
 //
 // cycle | 0 start | 1..DIGITS a digit each | DIGITS + 1 result: the digits, less one if the last remainder is negative
 // `done` marks cycle DIGITS + 1. A start while busy begins anew.
+// Kept apart for the reason given in dot_lane.
 `include "relnav_words.vh"
 `resetall
 `default_nettype none
+(* keep_hierarchy *)
 module reciprocal (
     input  wire        clk,
     input  wire        rst,

@@ -18,6 +18,7 @@ from typing import Any
 import numpy as np
 import numpy.typing as npt
 
+from . import words
 from .attitude import (
     IDENTITY,
     TURN_NAMES,
@@ -31,10 +32,11 @@ from .attitude import (
 from .result import PoseResult
 
 MAX_POINTS = 65535
-# Bounds on `condition`, near the core's own on the determinant (words.py: ILL_BITS, RANK_BITS), not equal.
-# Up to the first, 35-bit mantissas leave 3 digits or so; beyond the second the determinant is lost in them.
-ILL_CONDITIONED = 2.0**21
-RANK_DEFICIENT = 2.0**29
+# The core's bounds on `relative_determinant`; it meets them with its own rounding, to 3 % or so. Down to the
+# first, 35-bit mantissas leave 3 digits or so; below the second the determinant is lost in them.
+FULL_SCALE_BITS = words.MANT - 1
+ILL_CONDITIONED = 2.0 ** (words.ILL_BITS - FULL_SCALE_BITS)
+RANK_DEFICIENT = 2.0 ** (words.RANK_BITS - FULL_SCALE_BITS)
 Q_FIXED_FRACTION = 16
 
 
@@ -199,6 +201,14 @@ def condition(matrix: FloatArray) -> float:
     return float(np.trace(matrix) * np.trace(adj)) / det if det > 0.0 else np.inf
 
 
+def relative_determinant(matrix: FloatArray, m: Moments) -> float:
+    """det M over P^3, P the core's scale: the power of two at or below the largest of T_i = Sa_ii + Sb_ii."""
+    largest = float(np.diag(m.saa + m.sbb).max())
+    if not largest > 0.0:
+        return 0.0
+    return cramer(np.ldexp(matrix, 1 - int(np.frexp(largest)[1])), np.zeros(3))[0]
+
+
 def turn(m: Moments, k: int) -> Moments:
     """The moments with a turned by 180 degrees about none, x, y, z (k = 0..3)."""
     return m.turned(np.diag(np.array(TURN_SIGNS[k], float)))
@@ -347,8 +357,8 @@ def estimate(
             return PoseResult(frame, n, flags=(flag,))
     m = moments(a, b, weights)
     chosen = moment_matrix(turn(m, choose_turn(m, forbid_turns)))
-    kappa = condition(chosen / np.trace(chosen)) if np.trace(chosen) > 0.0 else np.inf
-    if kappa > RANK_DEFICIENT:
+    size = relative_determinant(chosen, m)
+    if size < RANK_DEFICIENT:
         return PoseResult(frame, n, flags=("RANK_DEFICIENT",))
     attitude = solve_moments(m, forbid_turns)
     if reapplied:
@@ -365,7 +375,7 @@ def estimate(
     jacobian = gibbs_jacobian(q) if finite else None
     q_fixed, saturated = to_q_fixed(q)
     flags = [
-        name for name, on in (("Q_SATURATED", saturated), ("ILL_CONDITIONED", kappa > ILL_CONDITIONED)) if on
+        name for name, on in (("Q_SATURATED", saturated), ("ILL_CONDITIONED", size < ILL_CONDITIONED)) if on
     ]
     return PoseResult(
         frame=frame,
@@ -380,7 +390,7 @@ def estimate(
         turn=TURN_NAMES[attitude.turn],
         flags=tuple(flags),
         weight=m.weight,
-        condition=kappa,
+        condition=condition(chosen / np.trace(chosen)),
         determinant=determinant,
         q_fixed=q_fixed,
     )

@@ -5,10 +5,11 @@ from __future__ import annotations
 
 import json
 from collections.abc import Callable, Sequence
+from dataclasses import asdict
 from pathlib import Path
 
 from ..comparison import Solutions
-from .page import page
+from .page import page, verdict
 from .pose_figures import error_figure, estimate_figure, relative_error_figure
 from .sensor_figures import cloud_figure, flight_figure, match_figure
 from .style import Picture, house_style
@@ -65,7 +66,9 @@ def write_report(
     builds = read_area(area)
     rows = key_rows(solved, timings, builds)
     html = page(solved, rows, groups)
-    numbers = json.dumps(summarise(solved, timings, builds), indent=1, allow_nan=False)
+    summary = summarise(solved, timings, builds)
+    summary |= {"verdict": verdict(solved), "key_table": [asdict(row) for row in rows]}
+    numbers = json.dumps(summary, indent=1, allow_nan=False)
     # everything is made before anything is written
     out.mkdir(parents=True, exist_ok=True)
     for _, pictures in groups:

@@ -181,7 +181,7 @@ class Bench:
             exponent = x.exponent + y.exponent
             live = bool(self.fields[self.cycle]["enable"]) and not x.zero and not y.zero
             if number == 0:
-                model.clear(self.reference(kind, exponent))
+                model.reference = self.reference(kind, exponent)
             self.put(self.cycle + REFERENCE, own_reference=int(kind == "own"), probing=0)
             if live and not self.accepts(model, kind, x, y, negate):
                 self.put(self.cycle, enable=0)

@@ -1,0 +1,62 @@
+// SPDX-License-Identifier: Apache-2.0
+// sequencer under replay, with a stub of solve_program: a program of at most 64 words, written by the stimulus.
+`resetall
+`default_nettype none
+
+module sequencer_replay (
+    input  wire clk,
+    input  wire rst,
+    output wire done
+);
+  wire clear, start, stop, reapply;
+  wire write;
+  wire [5:0] write_address;
+  wire [3:0] write_word;
+  wire [5:0] call, target, leave, finish;
+
+  // {there, first, last, probed}
+  reg [3:0] program[0:63];
+  reg [3:0] word;
+  reg [5:0] at;
+  wire run, probing, reapplied;
+  wire [9:0] counter, address;
+  wire leaving = counter == {4'd0, leave};
+  wire calling = reapply & ~reapplied & counter == {4'd0, call};
+  wire [9:0] following = calling ? {4'd0, target} : leaving ? {4'd0, call} : counter;
+  wire finished = address == {4'd0, finish};
+  always @(posedge clk) begin
+    if (write) program[write_address] <= write_word;
+    word <= run & ~|address[9:6] ? program[address[5:0]] : 4'd0;
+    at   <= address[5:0];
+  end
+
+  sequencer dut (
+      .clk(clk),
+      .rst(rst | clear),
+      .start(start),
+      .stop(stop | finished),
+      .first(word[2]),
+      .last(word[1]),
+      .probed(word[0]),
+      .probing(probing),
+      .run(run),
+      .counter(counter),
+      .following(following),
+      .leaving(leaving),
+      .address(address),
+      .reapplied(reapplied)
+  );
+
+  replay #(
+      .IN_BITS (4 + 1 + 6 + 4 + 4 * 6),
+      .OUT_BITS(1 + 6 + 1 + 1)
+  ) u_replay (
+      .clk(clk),
+      .rst(rst),
+      .word({clear, start, stop, reapply, write, write_address, write_word, call, target, leave, finish}),
+      .result({word[3], at, probing, reapplied}),
+      .done(done)
+  );
+endmodule
+
+`resetall
