@@ -11,7 +11,7 @@ PYTEST_ARGS ?=
 # more options for `relnav landing`, such as LANDING_ARGS='--frames 5 --backend icarus'
 LANDING_ARGS ?=
 
-.PHONY: help setup sim test waves synth timing lint format clean distclean
+.PHONY: help setup sim test waves synth timing docs lint format clean distclean
 
 help: ## this list
 	@awk -F ':.*## ' '/^[a-z%<>-]+:.*## / { printf "  make %-14s %s\n", $$1, $$2 }' $(MAKEFILE_LIST)
@@ -39,6 +39,9 @@ synth: setup ## area on Xilinx 7 with Yosys, into syn/results.json and the READM
 timing: setup ## place and route on ECP5-85k with nextpnr (slow), into syn/results.json and the README
 	@$(BIN)/python syn/timing.py
 
+docs: setup ## fill the tables of README and docs/ from the last runs (after make sim)
+	@$(BIN)/python scripts/readme_sim.py && $(BIN)/python scripts/latency.py && $(BIN)/python scripts/decisions.py
+
 lint: setup ## ruff, mypy, verible, Verilator on every module alone, Icarus, Yosys, shellcheck
 	@scripts/lint.sh
 
@@ -47,7 +50,7 @@ format: setup ## format the Python files
 
 clean: ## remove what was built; .venv stays
 	rm -rf build out .pytest_cache .mypy_cache .ruff_cache
-	find sim sw syn tb scripts -name __pycache__ -prune -exec rm -rf {} +
+	find bench sim sw syn tb scripts -name __pycache__ -prune -exec rm -rf {} +
 
 distclean: clean ## remove .venv too
 	rm -rf .venv sw/*.egg-info

@@ -1,10 +1,10 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Where RANK_DEFICIENT and ILL_CONDITIONED rise: bit-exact model beside the golden model and the exact determinant.
+"""Where RANK_DEFICIENT and ILL_CONDITIONED rise, in the bit-exact model, the golden model and exactly.
 
     python -m bench.limits [--quick]
 
-The core compares det M, in its own rounding, with 2^(RANK_BITS - 34) P^3 and 2^(ILL_BITS - 34) P^3, where P is the power of
-two at or below the largest of the three T_i = (sum w (a_i - mean)^2 + sum w (b_i - mean)^2).
+The core compares det M, in its own rounding, with 2^(RANK_BITS - 34) P^3 and 2^(ILL_BITS - 34) P^3, P being
+the power of two at or below the largest T_i = W (sum w (a_i - mean)^2 + sum w (b_i - mean)^2), i = x, y, z.
 """
 
 from __future__ import annotations
@@ -34,7 +34,7 @@ BATCH = 50
 
 @dataclass(frozen=True)
 class Limit:
-    """One frame: exact kappa, log2(det M / P^3), and the flags of both models (0 none, 1 ill, 2 rank deficient)."""
+    """One frame: exact kappa, log2(det M / P^3), flags of both models (see `level`)."""
 
     shape: str
     kappa: float
@@ -83,7 +83,11 @@ def measure(core: OltaeCore, shape: str, case: int) -> Limit | None:
     values: tuple[FloatArray, FloatArray] = frame.values()
     double = golden.estimate(*values, forbid_turns=forbid)
     return Limit(
-        shape, truth.kappa, float(np.log2(ratio)) if ratio > 0 else -np.inf, level(raw.flag_names), level(double.flags)
+        shape,
+        truth.kappa,
+        float(np.log2(ratio)) if ratio > 0 else -np.inf,
+        level(raw.flag_names),
+        level(double.flags),
     )
 
 
@@ -139,7 +143,9 @@ def text(found: dict[str, Any]) -> str:
                 ]
             )
     header = ["cloud", "flag", "kappa from", "kappa to", "log2 det/P^3 up to", "down to", "golden differs"]
-    return "flags by condition (from: least kappa with the flag; to: largest without):\n" + table(header, rows)
+    return "flags by condition (from: least kappa with the flag; to: largest without):\n" + table(
+        header, rows
+    )
 
 
 def main(arguments: Sequence[str] | None = None) -> int:

@@ -26,6 +26,7 @@ class Errors:
     """One case. None: not defined for it.
 
     kappa:       cond M of the turn taken, exact;  size: |q|
+    turn_loss:   how much smaller its det M is than the largest of the four
     q:           |dq| / |q| of the stored binary32 words
     components:  components of q within 1 ulp of binary32
     R:           largest |dR_ij|;  t: |dt| / (|R a_bar| + |b_bar|)
@@ -39,6 +40,7 @@ class Errors:
     turn: int
     flags: tuple[str, ...]
     kappa: float
+    turn_loss: float = 0.0
     size: float | None = None
     q: float | None = None
     components: int = 0
@@ -73,11 +75,12 @@ def measure(core: OltaeCore, case: Case) -> Errors:
     rotation = np.array([[float(x) for x in row] for row in truth.R])
     mean_a = np.array([float(Fraction(x) * unit / moments.weight) for x in moments.first_a])
     mean_b = np.array([float(Fraction(x) * unit / moments.weight) for x in moments.first_b])
-    found: dict[str, Any] = dict(
-        R=float(np.abs(floats(raw.R).reshape(3, 3) - rotation).max()),
-        t=translation_error(raw, truth, float(np.linalg.norm(mean_a) + np.linalg.norm(mean_b))),
-        noise=float(np.sqrt(max(0.0, float(truth.rss / spread)))) if spread else None,
-    )
+    found: dict[str, Any] = {
+        "R": float(np.abs(floats(raw.R).reshape(3, 3) - rotation).max()),
+        "t": translation_error(raw, truth, float(np.linalg.norm(mean_a) + np.linalg.norm(mean_b))),
+        "noise": float(np.sqrt(max(0.0, float(truth.rss / spread)))) if spread else None,
+        "turn_loss": float(1 - truth.determinant / max(truth.determinants)),
+    }
     found |= q_errors(raw, truth) | rss_errors(raw, truth, spread)
     return replace(errors, **(found | covariance_errors(case, raw, truth, moments)))
 

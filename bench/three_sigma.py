@@ -3,8 +3,8 @@
 
     python -m bench.three_sigma [--quick] [--trials N]
 
-A trial: a new cloud of 6 to 40 points, its axis, offset and weights new too; Gaussian noise of variance s^2 / w on both
-clouds, s 1e-4 to 3e-3 of the extent; quantised to 32 bits; the errors of q and t against the true pose.
+A trial: a new cloud of 6 to 40 points, its axis, offset and weights new too; Gaussian noise of variance
+s^2 / w on both clouds, s 1e-4 to 3e-3 of the extent; quantised to 32 bits; errors against the true pose.
 """
 
 from __future__ import annotations

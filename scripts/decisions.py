@@ -1,18 +1,19 @@
 # SPDX-License-Identifier: Apache-2.0
 """The measurements behind docs/decisions: each fills the block of its note. A minute or two, models only.
 
-    python scripts/decisions.py [NOTE ...]
+python scripts/decisions.py [NOTE ...]
 """
 
 from __future__ import annotations
 
 import sys
 from collections.abc import Callable, Iterator
-from contextlib import contextmanager
+from contextlib import ExitStack, contextmanager
 from dataclasses import replace
 from fractions import Fraction
 from pathlib import Path
 from typing import Any
+from unittest.mock import patch
 
 import numpy as np
 
@@ -27,7 +28,7 @@ from relnav.model import core as core_module  # noqa: E402
 from relnav.model import pose_program as pose  # noqa: E402
 from relnav.model import schedule, solver  # noqa: E402
 from relnav.model.core import OltaeCore  # noqa: E402
-from relnav.model.lane import DotLane  # noqa: E402
+from relnav.model.lane import ZERO, DotLane  # noqa: E402
 from relnav.model.raw import CoreConfig, RawResult, word_to_float  # noqa: E402
 from relnav.model.reciprocal import reciprocal  # noqa: E402
 from relnav.model.rom import scheduled  # noqa: E402
@@ -50,7 +51,9 @@ def rotation(rng: np.random.Generator, degrees: float) -> FloatArray:
     return np.asarray(np.eye(3) + np.sin(angle) * cross + (1 - np.cos(angle)) * cross @ cross)
 
 
-def frame(rng: np.random.Generator, degrees: float, shape: tuple[float, ...], noise: float, n: int = 40) -> QuantisedFrame:
+def frame(
+    rng: np.random.Generator, degrees: float, shape: tuple[float, ...], noise: float, n: int = 40
+) -> QuantisedFrame:
     """Points of the given rms along three random axes, turned and moved; noise relative to the longest."""
     a = rng.normal(size=(n, 3)) * np.array(shape) @ rotation(rng, rng.uniform(0, 180)).T
     b = a @ rotation(rng, degrees).T + rng.normal(size=3)
@@ -80,14 +83,22 @@ def table(head: tuple[str, ...], rows: Table) -> str:
 
 def conditioning() -> str:
     """Where the two flags rise, and the error below them."""
-    rng, rows = np.random.default_rng(1), []
+    rng = np.random.default_rng(1)
+    rows: Table = []
+    forbidden = CoreConfig(forbid_turns=True)
+
+    def rod(e: float, ratio: float = 1.0) -> QuantisedFrame:
+        return frame(rng, 40.0, (1.0, min(1.0, ratio * e), e), 0.0)
+
+    def round_cloud(e: float) -> QuantisedFrame:
+        return frame(rng, 180.0 - float(np.degrees(e)), (1.0, 1.0, 1.0), 0.0)
+
     cases: tuple[tuple[str, CoreConfig, Callable[[float], QuantisedFrame], tuple[float, float]], ...] = (
-        ("rod, rms 1 : e : e", CoreConfig(), lambda e: frame(rng, 40.0, (1.0, e, e), 0.0), (-17.0, 0.0)),
-        ("rod, rms 1 : 10 e : e", CoreConfig(), lambda e: frame(rng, 40.0, (1.0, min(1.0, 10 * e), e), 0.0), (-17.0, 0.0)),
-        ("round, 180 - e rad, turns forbidden", CoreConfig(forbid_turns=True),
-         lambda e: frame(rng, 180.0 - np.degrees(e), (1.0, 1.0, 1.0), 0.0), (-17.0, 0.0)),
-        ("flat, turned in its plane by 180 - e rad, turns forbidden", CoreConfig(forbid_turns=True), flat_turned, (-9.0, 0.0)),
-    )  # fmt: skip
+        ("rod, rms 1 : e : e", CoreConfig(), rod, (-17.0, 0.0)),
+        ("rod, rms 1 : 10 e : e", CoreConfig(), lambda e: rod(e, 10.0), (-17.0, 0.0)),
+        ("round, 180 degrees - e, turns forbidden", forbidden, round_cloud, (-17.0, 0.0)),
+        ("flat, about its normal, 180 degrees - e, turns forbidden", forbidden, flat_turned, (-9.0, 0.0)),
+    )
     for name, config, make, (low, high) in cases:
         found: list[tuple[float, float, tuple[str, ...], float]] = []
         for power in np.linspace(low, high, 80):
@@ -100,12 +111,18 @@ def conditioning() -> str:
             error = np.nan if raw.failed or truth.q is None else q_error(raw, truth)
             found.append((2.0**power, truth.kappa, raw.flag_names, error))
         # the largest e with each flag
-        ill = max((f[:2] for f in found if "ILL_CONDITIONED" in f[2]))
-        rank = max((f[:2] for f in found if "RANK_DEFICIENT" in f[2]))
+        ill = max(f[:2] for f in found if "ILL_CONDITIONED" in f[2])
+        rank = max(f[:2] for f in found if "RANK_DEFICIENT" in f[2])
         worst = max(f[3] for f in found if not {"ILL_CONDITIONED", "RANK_DEFICIENT"} & set(f[2]))
         flagged = max(f[3] for f in found if "ILL_CONDITIONED" in f[2])
         rows.append((name, at(ill), at(rank), f"{worst:.0e}", f"{flagged:.0e}"))
-    head = ("cloud", "ILL_CONDITIONED from", "RANK_DEFICIENT from", "q, worst unflagged", "q, worst ILL_CONDITIONED")
+    head = (
+        "cloud",
+        "ILL_CONDITIONED from",
+        "RANK_DEFICIENT from",
+        "q, worst unflagged",
+        "q, worst ILL_CONDITIONED",
+    )
     return table(head, rows)
 
 
@@ -139,21 +156,27 @@ def wide_lane() -> str:
                     errors.append(float(abs(got - truth.rss) / truth.rss))
             worst.append(f"{max(errors):.0e}")
         rows.append((f"{noise:.0e}", *worst))
-    return table(("noise / rms of the cloud", "one limb, 48 bits", "two limbs, 48 bits", "two limbs, 76 bits (built)"), rows)
+    return table(
+        ("noise / rms of the cloud", "one limb, 48 bits", "two limbs, 48 bits", "two limbs, 76 bits (built)"),
+        rows,
+    )
 
 
 @contextmanager
 def residual_arithmetic(limbs: int, wide: bool) -> Iterator[None]:
-    """The model with narrow lanes only, or without the low limbs."""
+    """The model with narrow lanes only, or with low limbs of zero."""
     items = OltaeCore.items
-    try:
+
+    def without_low(self: OltaeCore, *given: Any) -> Iterator[tuple[int, tuple[int, int], bool]]:
+        for address, value, low in items(self, *given):
+            yield address, (0, 0) if low else value, low
+
+    with ExitStack() as changes:
         if not wide:
-            solver.DotLane = lambda wide=False: DotLane()  # type: ignore[assignment,misc]
+            changes.enter_context(patch.object(solver, "DotLane", lambda wide=False: DotLane()))
         if limbs == 1:
-            OltaeCore.items = lambda self, *given: ((i, (0, 0) if low else v, low) for i, v, low in items(self, *given))  # type: ignore
+            changes.enter_context(patch.object(OltaeCore, "items", without_low))
         yield
-    finally:
-        solver.DotLane, OltaeCore.items = DotLane, items  # type: ignore[method-assign,misc]
 
 
 def ends(dots: list[asm.Dot] | None = None) -> dict[str, int]:
@@ -169,21 +192,17 @@ def versus(now: dict[str, int], other: dict[str, int]) -> tuple[str, str]:
 
 def drain_order() -> str:
     """The pose program behind another order of the items."""
-    now, arrival = ends(), pose.arrival
-    kinds = range(7)  # T E F H P N 2B: a slot's lanes 0 1 3 4 5 6 2
-    by_slot = [pose.item(s, k) for s in range(3) for k in (0, 1, 6, 2, 3, 4, 5)]
-    by_kind = [pose.item(s, k) for k in kinds for s in range(3)]
+    now, usual = ends(), list(pose.arrival())
+    by_slot = [pose.item(s, k) for s in range(3) for k in (0, 1, 6, 2, 3, 4, 5)]  # T E 2B F H P N
+    by_lane = [pose.item(s, k) for k in range(7) for s in range(3)]
     rows: Table = [("traces and diagonals first, then slots 0 2 1 (built)", "0", "0")]
-    for name, order in (("slot by slot", by_slot), ("lane by lane", by_kind)):
-        rest = [address for address in arrival() if address not in order]
-        pose.arrival = lambda order=order, rest=rest: {a: c + 1 for c, a in enumerate([*order, *rest])}  # type: ignore
-        try:
-            ready = pose.arrival()
-            first, others = pose.moment_matrix(), pose.program()[len(pose.moment_matrix()) :]
-            first.sort(key=lambda dot: max(ready.get(t.x, 0) for t in dot.terms))
-            rows.append((name, *versus(now, ends([*first, *others]))))
-        finally:
-            pose.arrival = arrival
+    for name, order in (("slot by slot", by_slot), ("lane by lane", by_lane)):
+        items = [*order, *(address for address in usual if address not in order)]
+        ready = {address: cycle + 1 for cycle, address in enumerate(items)}
+        first, rest = pose.moment_matrix(), pose.program()[len(pose.moment_matrix()) :]
+        first.sort(key=lambda dot: max(ready.get(term.x, 0) for term in dot.terms))
+        with patch.object(pose, "arrival", lambda ready=ready: dict(ready)):
+            rows.append((name, *versus(now, ends([*first, *rest]))))
     return table(("order", "cycles to q", "cycles to the pose"), rows)
 
 
@@ -207,31 +226,34 @@ def raw_results() -> str:
     now = ends()
     rows: Table = [
         ("raw, one exponent a block (built)", "0", "0", f"{worst[0]:.0e}"),
-        ("normalised, references probed", *versus(now, ends([normalised(d) for d in pose.program()])), f"{worst[1]:.0e}"),
+        (
+            "normalised, references probed",
+            *versus(now, ends([normalised(d) for d in pose.program()])),
+            f"{worst[1]:.0e}",
+        ),
     ]
-    return table(("entries of M, z and adj M", "cycles to q", "cycles to the pose", "q before rounding, worst"), rows)
+    return table(
+        ("entries of M, z and adj M", "cycles to q", "cycles to the pose", "q before rounding, worst"), rows
+    )
 
 
 def relative_before_rounding(core: OltaeCore, item: QuantisedFrame) -> float:
     """Relative error of q as N / D of the lane values: without the reciprocal and binary32."""
     kept: list[solver.Solver] = []
 
-    class Kept(solver.Solver):
-        def __post_init__(self) -> None:
-            super().__post_init__()
-            kept.append(self)
+    def keep(**options: Any) -> solver.Solver:
+        kept.append(solver.Solver(**options))
+        return kept[-1]
 
-    core_module.Solver = Kept  # type: ignore[misc]
-    try:
+    with patch.object(core_module, "Solver", keep):
         core.run(item, CoreConfig(covariance=False))
-    finally:
-        core_module.Solver = solver.Solver  # type: ignore[misc]
     bank = kept[0].registers[0]
     p = [Fraction(bank[pose.P + c][0]) * Fraction(2) ** bank[pose.P + c][1] for c in range(4)]
     truth = exact.solve(item, turn=kept[0].turn)
     assert truth.q is not None
     size = sum(float(x) ** 2 for x in truth.q) ** 0.5
-    return sum(float(p[c + 1] / p[0] - truth.q[c]) ** 2 for c in range(3)) ** 0.5 / size
+    difference = [float(p[c + 1] / p[0] - truth.q[c]) for c in range(3)]
+    return float(np.linalg.norm(difference) / size)
 
 
 def reciprocal_bits() -> str:
@@ -241,25 +263,31 @@ def reciprocal_bits() -> str:
         mantissa, exponent = reciprocal((m, 0))
         worst = max(worst, abs(Fraction(mantissa) * Fraction(2) ** exponent * m - 1))
     now = ends()
-    latency, busy = schedule.RECIPROCAL_LATENCY, schedule.DIVIDER_BUSY
-    try:
-        schedule.RECIPROCAL_LATENCY, schedule.DIVIDER_BUSY = latency + 1, busy + 1
+    with (
+        patch.object(schedule, "RECIPROCAL_LATENCY", asm.RECIPROCAL_LATENCY + 1),
+        patch.object(schedule, "DIVIDER_BUSY", schedule.DIVIDER_BUSY + 1),
+    ):
         cost = versus(now, ends())
-    finally:
-        schedule.RECIPROCAL_LATENCY, schedule.DIVIDER_BUSY = latency, busy
     rows: Table = [
         ("9 digits, 27 bits (built)", f"{float(worst):.1e}", "0", "0"),
         ("10 digits, 30 bits", f"{2.0**-30:.1e} (bound)", *cost),
     ]
-    return table(("reciprocal", "relative error, worst of 100 000", "cycles to q", "cycles to the pose"), rows)
+    return table(
+        ("reciprocal", "relative error, worst of 100 000", "cycles to q", "cycles to the pose"), rows
+    )
 
 
 def static_schedule() -> str:
     """Size of the program and how full it is."""
     program = scheduled()
     rows: Table = []
-    parts = (("pose", program.dots[: len(pose.program())]), ("residual, conditioning", program.dots[len(pose.program()) : program.basic]),
-             ("covariances", program.dots[program.basic :]), ("re-application", program.newton))  # fmt: skip
+    first = len(pose.program())
+    parts = (
+        ("pose", program.dots[:first]),
+        ("residual, conditioning", program.dots[first : program.basic]),
+        ("covariances", program.dots[program.basic :]),
+        ("re-application", program.newton),
+    )
     for name, dots in parts:
         words, slots = sum(len(d.terms) for d in dots), sum(d.slots for d in dots)
         cycles = dots[-1].end - dots[0].cycle + 1
@@ -269,7 +297,8 @@ def static_schedule() -> str:
 
 def turns() -> str:
     """Largest angle left, by cloud and by the rule that chooses the turn."""
-    rng, rows = np.random.default_rng(6), []
+    rng = np.random.default_rng(6)
+    rows: Table = []
     for name, shape, n, noise in (
         ("round, 200 points", (1.0, 1.0, 1.0), 200, 0.0),
         ("round, 200 points, noise 0.1", (1.0, 1.0, 1.0), 200, 0.1),
@@ -297,7 +326,13 @@ def turns() -> str:
             if max(range(4), key=lambda k: solved[k][0]) != 0:
                 early = min(early, angle)
         rows.append((name, *(f"{max(values):.0f}" for values in left.values()), f"{early:.0f}"))
-    head = ("cloud", "largest det M", "largest trace M", "largest of D, N", "smallest angle at which det M takes a turn")
+    head = (
+        "cloud",
+        "largest det M",
+        "largest trace M",
+        "largest of D, N",
+        "smallest angle at which det M takes a turn",
+    )
     return table(head, rows)
 
 
@@ -334,19 +369,18 @@ def exponents(item: QuantisedFrame) -> list[int]:
             lanes = [self.lanes[number] for number in used]
             values = [s.raw() if dot.kind == asm.RAW else s.result(dot.half, dot.clamp) for s in lanes]
             seen.extend(exponent for mantissa, exponent in values if mantissa)
-            inverse = self.registers[0][dot.divide_dest] if dot.divide_dest is not None else solver.ZERO
+            inverse = self.registers[0][dot.divide_dest] if dot.divide_dest is not None else ZERO
             if inverse[0] and inverse[1] != 1200:  # 1/0
                 seen.append(inverse[1])
 
     def endless(self: Any, dot: asm.Dot) -> bool:
         """Whether the dot product follows from 1/0: q and its covariance at 180 degrees."""
-        return self.registers[0][pose.P][0] == 0 and dot.name.startswith(("q ", "q_cov", "L ", "q1", "q2", "q3"))
+        return self.registers[0][pose.P][0] == 0 and dot.name.startswith(
+            ("q ", "q_cov", "L ", "q1", "q2", "q3")
+        )
 
-    solver.Solver.finish = watched  # type: ignore[method-assign]
-    try:
+    with patch.object(solver.Solver, "finish", watched):
         OltaeCore().run(item)
-    finally:
-        solver.Solver.finish = finish  # type: ignore[method-assign]
     return seen
 
 

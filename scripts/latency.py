@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: Apache-2.0
 """Latency of oltae_top in cycles, from its own counters, into the table of docs/oltae.md.
 
-    python scripts/latency.py [--simulator icarus|verilator]
+python scripts/latency.py [--simulator icarus|verilator]
 """
 
 from __future__ import annotations
@@ -30,7 +30,11 @@ def frame(weighted: bool, degrees: float) -> QuantisedFrame:
     rng, angle = np.random.default_rng(1), np.radians(degrees)
     a = rng.normal(size=(20, 3))
     c, s = np.cos(angle), np.sin(angle)
-    b = a @ np.array([[c, -s, 0], [s, c, 0], [0, 0, 1]]).T + rng.normal(size=3) + 1e-4 * rng.normal(size=a.shape)
+    b = (
+        a @ np.array([[c, -s, 0], [s, c, 0], [0, 0, 1]]).T
+        + rng.normal(size=3)
+        + 1e-4 * rng.normal(size=a.shape)
+    )
     return quantise(make_frame(a, b, rng.integers(1, 100, 20) if weighted else None))
 
 
@@ -39,7 +43,7 @@ def main() -> int:
     parser = argparse.ArgumentParser(description="latency of oltae_top, into docs/oltae.md")
     parser.add_argument("--simulator", default="icarus", choices=("icarus", "verilator"))
     simulator = parser.parse_args().simulator
-    modes = (
+    modes: tuple[tuple[str, dict[str, int], bool, CoreConfig], ...] = (
         ("full, unweighted", {}, False, CoreConfig()),
         ("full, weighted", {}, True, CoreConfig()),
         ("full, unweighted, CONFIG.COVARIANCE = 0", {}, False, CoreConfig(covariance=False)),

@@ -40,7 +40,7 @@ def verilator(module: Path, folders: list[str]) -> str:
 def icarus(module: Path, folders: list[str]) -> str:
     """Icarus' elaboration as Verilog-2005; its remarks on time scales don't matter, no module has one."""
     options = ["-g2005", "-Wall", "-Wno-timescale", "-Irtl/include", "-tnull", "-s", module.stem]
-    # by name, not with -y: the preprocessor of Icarus 11 crashes on a library file that includes a guarded header twice
+    # by name, not with -y: Icarus 11's preprocessor crashes on a library file that includes a header twice
     files = [file for folder in folders for file in sorted((ROOT / folder).glob("*.v"))]
     return run(["iverilog", *options, *(str(f.relative_to(ROOT)) for f in reachable(module.stem, files))])
 

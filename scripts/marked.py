@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Blocks of a Markdown file that a script fills: what stands between `<!-- NAME:begin -->` and `<!-- NAME:end -->`."""
+"""Blocks of a Markdown file that a script fills, between `<!-- NAME:begin -->` and `<!-- NAME:end -->`."""
 
 from __future__ import annotations
 
@@ -8,7 +8,7 @@ from pathlib import Path
 
 
 def fill(file: Path, name: str, text: str) -> bool:
-    """Replace a block's text; returns whether the file changed. Raises SystemExit where there is no such block."""
+    """Replace a block's text; returns whether the file changed. SystemExit where there is no such block."""
     pattern = re.compile(rf"(<!-- {name}:begin -->\n).*?(<!-- {name}:end -->)", re.DOTALL)
     old = file.read_text(encoding="utf-8")
     if not pattern.search(old):

@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Fill the README from runs: `make sim`'s table and picture, the example's output, the numbers beside the paper's.
+"""Fill the README from runs: table and picture of `make sim`, output of the examples, numbers.
 
-    python scripts/readme_sim.py        after `make sim`; what `make synth`, `make timing` and bench/ left is used where it is there
+python scripts/readme_sim.py    after `make sim`; uses what `make synth`, `make timing` and bench/ left
 """
 
 from __future__ import annotations
@@ -61,7 +61,10 @@ def sim(summary: Json) -> str:
 def picture(out: Path) -> None:
     """Ground track and errors of t, one above the other, in few colours."""
     parts = [Image.open(out / name).convert("RGB") for name in ("flight.png", "fig11_translation_error.png")]
-    parts = [part.resize((WIDTH, round(part.height * WIDTH / part.width)), Image.Resampling.LANCZOS) for part in parts]
+    parts = [
+        part.resize((WIDTH, round(part.height * WIDTH / part.width)), Image.Resampling.LANCZOS)
+        for part in parts
+    ]
     whole = Image.new("RGB", (WIDTH, sum(part.height for part in parts)), "white")
     top = 0
     for part in parts:
@@ -99,20 +102,38 @@ def numbers(summary: Json, syn: Json, bench: Json) -> str:
     """The table beside the paper; what has not been run yet says so."""
     rows: list[tuple[str, str, str]] = []
     error = summary["relative_error_percent_max"]
-    rows.append(("q3, tx, tz of the landing, deviation from double, max", "7 %", f"{max(error['core']):.1e} %"))
+    rows.append(
+        ("q3, tx, tz of the landing, deviation from double, max", "7 %", f"{max(error['core']):.1e} %")
+    )
     for run in error["paper_q15_16"]:
         worst = [value for value in run["worst"] if value is not None]
         shown = f"{max(worst):.2g} %" if len(worst) == len(run["worst"]) else "no result"
         rows.append((f"the paper's Q15.16 on the same landing, {run['scale']}", "", shown))
-    rows.append(("relative error of q to the exact solution, landing, max", "not given", f"{summary['numerical_error_max']:.1e}"))
+    rows.append(
+        (
+            "relative error of q to the exact solution, landing, max",
+            "not given",
+            f"{summary['numerical_error_max']:.1e}",
+        )
+    )
     rows += bench_rows(bench)
     cycles = summary["cycles"]
-    rows.append(("cycles from the last beat to q", f"{summary['paper_cycles']}, of centred points", str(max(cycles["q"]))))
+    rows.append(
+        (
+            "cycles from the last beat to q",
+            f"{summary['paper_cycles']}, of centred points",
+            str(max(cycles["q"])),
+        )
+    )
     rows.append(("to R and t", "software", str(max(cycles["pose"]))))
     rows.append(("to rss and covariances", "software", str(max(cycles["all"]))))
     rows.append(("cycles a point", "several register writes", "3, weighted 6"))
     rows += area_rows(syn)
-    lines = ["| | paper | here |", "|---|---|---|", *(f"| {name} | {paper} | {here} |" for name, paper, here in rows)]
+    lines = [
+        "| | paper | here |",
+        "|---|---|---|",
+        *(f"| {name} | {paper} | {here} |" for name, paper, here in rows),
+    ]
     return "\n".join(lines)
 
 
@@ -123,11 +144,19 @@ def area_rows(syn: Json) -> list[tuple[str, str, str]]:
     area = core.get("area")
     for build, content in (area or {"builds": {"full": None, "lean": None}})["builds"].items():
         total = content and content["total"]
-        shown = " / ".join(f"{total[c]:g}" for c in ("LUT", "FF", "DSP")) if total else "not run: `make synth`"
+        shown = (
+            " / ".join(f"{total[c]:g}" for c in ("LUT", "FF", "DSP")) if total else "not run: `make synth`"
+        )
         rows.append((f"LUT / FF / DSP, xc7, {build} build", "5545 / 7597 / 137", shown))
     timing = core.get("timing")
     fmax = timing and (timing.get("fmax_mhz") or timing.get("fmax"))
-    rows.append(("clock", "100 MHz (xc7z020)", f"{fmax:.0f} MHz (ECP5-85k, grade 8, routed)" if fmax else "not run: `make timing`"))
+    rows.append(
+        (
+            "clock",
+            "100 MHz (xc7z020)",
+            f"{fmax:.0f} MHz (ECP5-85k, grade 8, routed)" if fmax else "not run: `make timing`",
+        )
+    )
     return rows
 
 
@@ -136,18 +165,26 @@ def bench_rows(bench: Json) -> list[tuple[str, str, str]]:
     rows: list[tuple[str, str, str]] = []
     if accuracy := bench.get("accuracy"):
         if (worst := accuracy.get("worst_below_quiet")) is not None:
-            name = f"random clouds, kappa(M) < {accuracy['bound_kappa']:g}, angle below {quiet_degrees(accuracy)}, max"
-            rows.append((f"the same, {name}", "not given", f"{worst['q']:.1e}"))
+            where = f"kappa(M) < {accuracy['bound_kappa']:g}, angle below {quiet_degrees(accuracy)}"
+            rows.append((f"the same, random clouds, {where}, max", "not given", f"{worst['q']:.1e}"))
         for entry in accuracy["bins"]:
             if "R" in entry:
-                name = f"error of an element of R, any angle, kappa(M) < {entry['kappa_below']:g}, max of {entry['cases']}"
-                rows.append((name, "not given", f"{entry['R']['error']:.0e}"))
+                where = f"any angle, kappa(M) < {entry['kappa_below']:g}"
+                rows.append(
+                    (
+                        f"error of an element of R, {where}, max of {entry['cases']}",
+                        "not given",
+                        f"{entry['R']['error']:.0e}",
+                    )
+                )
     else:
         rows.append(("the same, random clouds", "not given", "not run: `python -m bench.accuracy`"))
     if sigma := bench.get("three_sigma"):
         for row in sigma["angles"]:
             shares = row["inside"].values()
-            name = f"errors inside 3 sigma, {row['degrees']:g} degrees" + (", re-applied" if row["reapplied"] else "")
+            name = f"errors inside 3 sigma, {row['degrees']:g} degrees" + (
+                ", re-applied" if row["reapplied"] else ""
+            )
             shown = f"{100 * min(shares):.2f} to {100 * max(shares):.2f} %"
             rows.append((f"{name}, {row['trials']} trials", "all of 25 frames", shown))
     else:
@@ -176,7 +213,9 @@ def main() -> int:
         )
         if fill(README, name, text)
     ]
-    print(f"README.md: {', '.join(changed) or 'nothing'} changed; {PICTURE.name} {PICTURE.stat().st_size} bytes")
+    print(
+        f"README.md: {', '.join(changed) or 'nothing'} changed; {PICTURE.name} {PICTURE.stat().st_size} bytes"
+    )
     return 0
 
 

@@ -1,8 +1,8 @@
 # SPDX-License-Identifier: Apache-2.0
-"""For `make waves`: a short simulation of oltae_top where there is no waveform yet, and GTKWave's layout for one.
+"""For `make waves`: a short simulation of oltae_top where there is no waveform yet, and its GTKWave layout.
 
-    python -m sim.waves          two small frames, the waveform to build/waves
-    python -m sim.waves FILE     the saved layout moved to FILE's last complete frame; prints where it is
+python -m sim.waves          two small frames, the waveform to build/waves
+python -m sim.waves FILE     the saved layout moved to FILE's last complete frame; prints where it is
 """
 
 from __future__ import annotations

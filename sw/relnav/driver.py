@@ -3,7 +3,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 from typing import Literal, Protocol
 
@@ -76,11 +76,13 @@ def beats_of(frame: QuantisedFrame) -> list[int]:
 class OltaeDriver:
     """One OLTAE core behind a bus. Not for two threads at once; nobody else may write the core's registers.
 
-    `solve` does all of it; the steps are there for those who want the interrupt or their own DMA in between.
+    `solve` does all of it; the steps are there for those who want something else in between.
+    idle: called between two looks at an unfinished frame; it may sleep or block until the interrupt.
     """
 
-    def __init__(self, bus: Bus) -> None:
+    def __init__(self, bus: Bus, idle: Callable[[], None] = lambda: None) -> None:
         self.bus = bus
+        self.idle = idle
         self._covariance = True
 
     # ------------------------------------------------------------------ registers
@@ -214,6 +216,7 @@ class OltaeDriver:
                 return True
             if flags & FAILURE_BITS and not status.busy:
                 return False
+            self.idle()
         raise BackendError(f"no result after {polls} looks at the core: its state is {status.state.name}")
 
     def result(self) -> RawResult:

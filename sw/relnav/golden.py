@@ -202,11 +202,14 @@ def condition(matrix: FloatArray) -> float:
 
 
 def relative_determinant(matrix: FloatArray, m: Moments) -> float:
-    """det M over P^3, P the core's scale: the power of two at or below the largest of T_i = Sa_ii + Sb_ii."""
-    largest = float(np.diag(m.saa + m.sbb).max())
+    """det M over P^3, P the core's scale: the power of two at or below the largest of T_i = Sa_ii + Sb_ii.
+
+    The core's moments, M among them, carry a factor W, which moves P.
+    """
+    largest = m.weight * float(np.diag(m.saa + m.sbb).max())
     if not largest > 0.0:
         return 0.0
-    return cramer(np.ldexp(matrix, 1 - int(np.frexp(largest)[1])), np.zeros(3))[0]
+    return cramer(np.ldexp(m.weight * matrix, 1 - int(np.frexp(largest)[1])), np.zeros(3))[0]
 
 
 def turn(m: Moments, k: int) -> Moments:

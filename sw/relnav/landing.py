@@ -122,7 +122,7 @@ def _solve(frames: Sequence[Frame], backend: str, config: CoreConfig, rtl: Path 
 
 
 def _trace(frames: Sequence[Frame], backend: str, config: CoreConfig, rtl: Path | None) -> None:
-    """Some frames once more, for `make waves` and the report's Fig. 7: a waveform of all would take 100 MB."""
+    """Some frames again, for `make waves` and the report's Fig. 7: a waveform of all would take 100 MB."""
     try:
         solve(frames, backend, config=config, rtl_dir=rtl, waves=WAVES / "oltae_top.fst")
     except BackendError as error:  # a waveform is a picture, not a result

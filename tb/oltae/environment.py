@@ -53,7 +53,7 @@ class Bench:
         self.dut = dut
         self.rng = random.Random(seed)
         self.bus = Bus(dut)
-        self.driver = OltaeDriver(self.bus)
+        self.driver = OltaeDriver(self.bus, self.bus.idle)
         self.model = OltaeCore(weighted=FULL)
         self.last = RawResult()  # what the registers show
         self.rises: dict[str, int] = {}

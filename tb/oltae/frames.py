@@ -4,6 +4,7 @@
 from __future__ import annotations
 
 import random
+from collections.abc import Callable
 
 import numpy as np
 from numpy.typing import NDArray
@@ -29,16 +30,15 @@ def random_frame(
 
 def random_weights(rng: random.Random, n: int) -> Integers:
     """Weights 0..65535: all alike, few, extreme, or any."""
-    draw = rng.choice(
-        [
-            lambda: 1,
-            lambda: 65535,
-            lambda: rng.choice([0, 1]),
-            lambda: rng.choice([0, 1, 65535]),
-            lambda: rng.randint(1, 9),
-            lambda: rng.randint(0, 65535),
-        ]
-    )
+    draws: list[Callable[[], int]] = [
+        lambda: 1,
+        lambda: 65535,
+        lambda: rng.choice([0, 1]),
+        lambda: rng.choice([0, 1, 65535]),
+        lambda: rng.randint(1, 9),
+        lambda: rng.randint(0, 65535),
+    ]
+    draw = rng.choice(draws)
     return np.array([draw() for _ in range(n)], dtype=np.int64)
 
 

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Exact centred moments of random clouds, and the moment stream they make: stimulus for the solve engine's benches."""
+"""Exact centred moments of random clouds, and the moment stream they make: the solve engine's stimulus."""
 
 from __future__ import annotations
 

@@ -5,7 +5,6 @@ from __future__ import annotations
 
 import numpy as np
 import pytest
-
 from relnav.attitude import (
     IDENTITY,
     TURN_SIGNS,

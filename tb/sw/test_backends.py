@@ -8,7 +8,6 @@ from types import SimpleNamespace
 
 import numpy as np
 import pytest
-
 from relnav.backends import solve
 from relnav.errors import BackendError, InputError
 from relnav.frames import make_frame

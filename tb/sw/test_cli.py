@@ -10,7 +10,6 @@ from pathlib import Path
 
 import numpy as np
 import pytest
-
 import relnav
 from relnav import cli, golden
 from relnav.attitude import cayley

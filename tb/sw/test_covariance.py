@@ -5,7 +5,6 @@ from __future__ import annotations
 
 import numpy as np
 import pytest
-
 from relnav import golden
 from relnav.attitude import FloatArray, cayley, rotation_of
 

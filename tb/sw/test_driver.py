@@ -159,11 +159,16 @@ def test_too_long_is_waited_out() -> None:
 
 
 def test_a_core_that_hangs_is_given_up() -> None:
-    core = Core(10**9)
-    core.state = Oltae.State.DONE
-    driver = OltaeDriver(core)
+    core, idled = Core(10**9), 0
+
+    def idle() -> None:
+        nonlocal idled
+        idled += 1
+
+    driver = OltaeDriver(core, idle)
     with pytest.raises(BackendError, match="no result after 25 looks at the core: its state is DONE"):
         driver.solve(FRAME, polls=25)
+    assert idled == 25
 
 
 def test_what_cannot_be_done_is_refused() -> None:

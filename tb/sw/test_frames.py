@@ -9,7 +9,6 @@ from pathlib import Path
 
 import numpy as np
 import pytest
-
 from relnav.errors import InputError
 from relnav.frames import make_frame, read_frames
 

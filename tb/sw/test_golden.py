@@ -7,7 +7,6 @@ from fractions import Fraction
 
 import numpy as np
 import pytest
-
 from relnav import exact, golden, wahba
 from relnav.attitude import IDENTITY, TURN_NAMES, FloatArray, cayley, quaternion_of, rotation_of, skew
 from relnav.frames import make_frame

@@ -5,7 +5,6 @@ from __future__ import annotations
 
 import numpy as np
 import pytest
-
 from relnav import golden, registers
 from relnav.errors import InputError
 from relnav.frames import make_frame

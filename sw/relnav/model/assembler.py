@@ -1,9 +1,11 @@
+# SPDX-License-Identifier: Apache-2.0
 """Microprogram of the solve engine: terms, dot products, in-order scheduling and the ROM image.
 
-One slot is one term a cycle, broadcast to the four lanes. Lane k works on turn k (0 none, 1 x, 2 y, 3 z) and, after
-the turn is chosen, on matrix row k. A dot product is a run of consecutive slots; its result can be read
-``LATENCY`` cycles after its last slot. The scheduler places dot products in the order written, each at the first
-cycle where its operands, the write port and the divider are free: the RTL has no interlock, so the schedule is the proof.
+One slot is one term a cycle, broadcast to the four lanes. Lane k works on turn k (0 none, 1 x, 2 y, 3 z)
+and, after the turn is chosen, on matrix row k. A dot product is a run of consecutive slots; its result can
+be read ``LATENCY`` cycles after its last slot. The scheduler places dot products in the order written, each
+at the first cycle where its operands, the write port and the divider are free: the RTL has no interlock, so
+the schedule is the proof.
 """
 
 from __future__ import annotations
@@ -23,7 +25,21 @@ TURN = 4  # broadcast from the lane of the chosen turn
 # result kinds
 NORMAL, RAW, FIXED = range(3)
 # reference exponents
-OWN, REF_MOMENT, REF_CROSS, REF_QUATERNION, REF_UNIT, REF_CENTROID, REF_ROTATED, REF_FIXED, REF_PROBED, REF_NEWTON, REF_IMAGE, REF_FORM, REF_COFACTOR = range(13)
+(
+    OWN,
+    REF_MOMENT,
+    REF_CROSS,
+    REF_QUATERNION,
+    REF_UNIT,
+    REF_CENTROID,
+    REF_ROTATED,
+    REF_FIXED,
+    REF_PROBED,
+    REF_NEWTON,
+    REF_IMAGE,
+    REF_FORM,
+    REF_COFACTOR,
+) = range(13)
 # register whose exponent maximum is tracked
 NO_TRACK, TRACK_QUATERNION, TRACK_CENTROID, TRACK_AFRESH = range(4)
 # divider start
@@ -43,9 +59,12 @@ def lanes(*members: int) -> frozenset[int]:
 
 @dataclass(frozen=True)
 class Term:
-    """One product x*y. ``x``/``y`` addresses are XORed with the lane's number where ``*_by_lane``;
-    lanes in ``alternate`` flip address bit 0 of x, lanes in ``negate`` subtract, lanes not in ``enable`` add nothing; ``only_estimated``
-    terms count only where the variance is estimated from the residual, ``only_first`` ones only without re-application."""
+    """One product x*y. ``x``/``y`` addresses are XORed with the lane's number where ``*_by_lane``.
+
+    Lanes in ``alternate`` flip address bit 0 of x, lanes in ``negate`` subtract, lanes not in ``enable`` add
+    nothing. ``only_estimated`` terms count only where the variance is estimated from the residual,
+    ``only_first`` ones only without re-application.
+    """
 
     x: int
     y: int

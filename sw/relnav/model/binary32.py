@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """Bit-exact model of the lane-value to IEEE-754 binary32 conversion (rtl/arith/to_binary32.v)."""
 
 from __future__ import annotations
@@ -8,7 +9,7 @@ INFINITY = 0x7F800000
 
 
 def to_binary32(value: LaneValue) -> int:
-    """Round a lane value to binary32, ties to even. Overflow gives infinity, anything below 2**-126 gives signed zero."""
+    """Round a lane value to binary32, ties to even; overflow gives infinity, below 2**-126 signed 0."""
     mantissa, exponent = value
     if mantissa == 0:
         return 0
@@ -36,7 +37,7 @@ def to_binary32(value: LaneValue) -> int:
 
 
 def from_binary32(word: int) -> LaneValue:
-    """The lane value of a finite, normal binary32 pattern (unnormalised mantissa of 24 bits); denormals give zero."""
+    """The lane value of a finite binary32 pattern (mantissa of 24 bits, not normalised); denormals give 0."""
     biased = word >> 23 & 0xFF
     if biased == 0:
         return (0, 0)

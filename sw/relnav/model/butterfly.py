@@ -19,7 +19,7 @@ class Role(Enum):
 
 
 def role(lane: int) -> Role:
-    """Role of a pair of a slot by its lane: (0, 1) give T_i, E_i, (3, 4) F_ij, H_ij, (5, 6) P_ij, N_ij; lane 2 passes."""
+    """Role of a slot's pair by lane: 0, 1 give T_i, E_i; 3, 4 F_ij, H_ij; 5, 6 P_ij, N_ij; 2 passes."""
     firsts, seconds = (0, 3, 5), (1, 4, 6)
     return Role.FIRST if lane in firsts else Role.SECOND if lane in seconds else Role.PLAIN
 

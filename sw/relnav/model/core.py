@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Bit-exact model of the OLTAE core (rtl/oltae/oltae_core.v): a quantised frame in, the register words it leaves out."""
+"""Bit-exact model of the OLTAE core (rtl/oltae/oltae_core.v): a quantised frame in, register words out."""
 
 from __future__ import annotations
 

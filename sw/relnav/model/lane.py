@@ -1,8 +1,10 @@
+# SPDX-License-Identifier: Apache-2.0
 """Bit-exact model of one float dot lane (rtl/arith/dot_lane.v).
 
-A lane value is ``(mantissa, exponent)`` = mantissa * 2**exponent with a signed 35-bit mantissa; zero is ``(0, 0)``.
-A dot product is accumulated in fixed point whose unit is set by a reference exponent: the products are exact, each
-is aligned with one floor, the sum is exact, and one more floor makes the result's mantissa.
+A lane value is ``(mantissa, exponent)`` = mantissa * 2**exponent with a signed 35-bit mantissa; zero is
+``(0, 0)``. A dot product is accumulated in fixed point whose unit is set by a reference exponent: the
+products are exact, each is aligned with one floor, the sum is exact, and one more floor makes the result's
+mantissa.
 """
 
 from __future__ import annotations
@@ -128,5 +130,6 @@ class DotLane:
         """Q15.16 of an accumulator whose narrow unit is 2**-17: half up, saturated to 32 bits."""
         value = (self.narrow + 1) >> 1
         clipped = max(-(1 << 31), min((1 << 31) - 1, value))
-        self.saturated |= clipped != value
+        # what rounds into the range from below has left it all the same
+        self.saturated |= clipped != value or self.narrow < -(1 << 32)
         return clipped

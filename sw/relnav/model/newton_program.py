@@ -1,13 +1,14 @@
 # SPDX-License-Identifier: Apache-2.0
 """Re-application: one Newton step on Wahba's cost from OLTAE's quaternion, in the tangent space of rotations.
 
-rss = T - 2 p^T K p / |p|^2 with Davenport's K; e_0 = p, e_c = (0, unit c) (x) p turns p about axis c. With lambda = p^T K p,
-g_c = e_c^T K p, H = e^T K e and r = 2/|p|^2:
+rss = T - 2 p^T K p / |p|^2 with Davenport's K; e_0 = p, e_c = (0, unit c) (x) p turns p about axis c.
+With lambda = p^T K p, g_c = e_c^T K p, H = e^T K e and r = 2/|p|^2:
 
   M'' = r (lambda I - H), C = adj M'', D = det M'', N = C r g, p'' = p + sum N_c e_c / D
 
-which is what OLTAE gives on the moments turned by R(p), to second order in the noise. M'' replaces M, so that with q = 0
-for the turned points the covariance of the second application, 4 s^2 M''^-1, comes out of the same program.
+which is what OLTAE gives on the moments turned by R(p), to second order in the noise. M'' replaces M, so
+that with q = 0 for the turned points the covariance of the second application, 4 s^2 M''^-1, comes out of the
+same program.
 """
 
 from __future__ import annotations
@@ -15,7 +16,7 @@ from __future__ import annotations
 from relnav.model import assembler as asm
 from relnav.model import pose_program as pose
 from relnav.model.assembler import ALL, Dot, Term
-from relnav.model.pose_program import CD, CO, MD, MO, ONE, P, RECIPROCAL_NORM, RECIPROCAL_P0, item
+from relnav.model.pose_program import CD, CO, MD, MO, ONE, RECIPROCAL_NORM, RECIPROCAL_P0, P, item
 
 K_TRACE = 28  # tr 2B
 Y = (24, 1, 2, 3)  # K e_c, c = lane
@@ -38,8 +39,11 @@ def minus(component: int) -> frozenset[int]:
 
 
 def element(row: int, column: int) -> int:
-    """Register or stream item that holds K_(row, column). K carries tr 2B / 2 times I more, which cancels in lambda I - H:
-    its diagonal is (tr 2B, 2B_11, 2B_22, 2B_33)."""
+    """Register or stream item that holds K_(row, column).
+
+    K carries tr 2B / 2 times I more, which cancels in lambda I - H: its diagonal is
+    (tr 2B, 2B_11, 2B_22, 2B_33).
+    """
     k = row ^ column
     if k == 0:
         return item(row - 1, pose.KIND_B2) if row else K_TRACE
@@ -70,16 +74,15 @@ def moments() -> list[Dot]:
     images = []
     for row in (1, 2, 3, 0):
         terms = [
-            Term(element(row, row ^ d), P + (row ^ d), negate=minus(row ^ d), y_by_lane=True) for d in range(4)
+            Term(element(row, row ^ d), P + (row ^ d), negate=minus(row ^ d), y_by_lane=True)
+            for d in range(4)
         ]
         images.append(Dot(f"Y{row}", terms, reference=asm.REF_IMAGE, dest=Y[row]))
 
     def product(c: int) -> list[Term]:
         return [Term(Y[m], P + (m ^ c), negate=ALL if BASIS[c][m] < 0 else frozenset()) for m in (1, 2, 3, 0)]
 
-    eigenvalue = Dot(
-        "lambda", product(0), reference=asm.REF_FORM, write=asm.BROADCAST, source=0, dest=LAMBDA
-    )
+    eigenvalue = Dot("lambda", product(0), reference=asm.REF_FORM, write=asm.BROADCAST, source=0, dest=LAMBDA)
     forms = [Dot(f"H{c}", product(c), reference=asm.REF_FORM, dest=H[c]) for c in (1, 2, 3, 0)]
     return [trace, *images, norm, eigenvalue, *forms]
 
@@ -98,17 +101,17 @@ def system() -> list[Dot]:
                 dest=MO + k,
             )
         )
-    for i in (1, 2, 3):
-        dots.append(
-            Dot(
-                f"M''{i}{i}",
-                [Term(LAMBDA, RECIPROCAL_NORM), Term(H[i], RECIPROCAL_NORM, negate=ALL)],
-                reference=asm.REF_NEWTON,
-                write=asm.BROADCAST,
-                source=i,
-                dest=MD + i,
-            )
+    dots += [
+        Dot(
+            f"M''{i}{i}",
+            [Term(LAMBDA, RECIPROCAL_NORM), Term(H[i], RECIPROCAL_NORM, negate=ALL)],
+            reference=asm.REF_NEWTON,
+            write=asm.BROADCAST,
+            source=i,
+            dest=MD + i,
         )
+        for i in (1, 2, 3)
+    ]
     dots += [
         Dot(
             f"g{i}",
@@ -167,5 +170,3 @@ def step() -> list[Dot]:
 def program() -> list[Dot]:
     """The whole step in issue order."""
     return [*moments(), *system(), *step()]
-
-

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """The pose microprogram: moments of the two clouds -> q, R, t (OLTAE, Eqs. 25, 3, 12 by Cramer's rule).
 
 With S = sum w (b+a)(b+a)^T of the points turned by the lane's half turn d = diag(+-1), M = tr(S) I - S,
@@ -58,7 +59,7 @@ def arrival() -> dict[int, int]:
 
 
 def references() -> dict[int, int]:
-    """First cycle in which a dot product may begin that uses a scale of the stream: it is looked up one cycle later."""
+    """First cycle in which a dot product may begin that uses a scale of the stream, looked up a cycle on."""
     ready = arrival()
     return {
         asm.REF_MOMENT: ready[item(2, KIND_T)] - 1,
@@ -132,7 +133,9 @@ def adjugate(reference: int = asm.OWN) -> list[Dot]:
     """C = adj M: first what the determinant needs, cofactors that need the last moment last."""
 
     def cofactor(name: str, dest: int, plus: tuple[int, int], minus: tuple[int, int]) -> Dot:
-        return Dot(name, [Term(*plus), Term(*minus, negate=ALL)], kind=asm.RAW, reference=reference, dest=dest)
+        return Dot(
+            name, [Term(*plus), Term(*minus, negate=ALL)], kind=asm.RAW, reference=reference, dest=dest
+        )
 
     m11, m22, m33 = MD + 1, MD + 2, MD + 3
     m23, m13, m12 = MO + 1, MO + 2, MO + 3
@@ -180,7 +183,9 @@ def quaternion(c: int) -> Dot:
         Term(CO + k, Z + (c ^ k), negate=minus_n, enable=ALL - {c, c ^ k}, y_by_lane=True) for k in (1, 2, 3)
     ]
     sign = (minus_n - {c}) | (minus_d & {c})
-    terms.append(Term(CD + c, Z + c, negate=sign, enable=ALL - {0} if c == 0 else ALL, x_by_lane=True, y_by_lane=True))
+    terms.append(
+        Term(CD + c, Z + c, negate=sign, enable=ALL - {0} if c == 0 else ALL, x_by_lane=True, y_by_lane=True)
+    )
     return Dot(
         f"P{c}",
         terms,

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """Bit-exact model of the reciprocal divider (rtl/arith/reciprocal.v)."""
 
 from __future__ import annotations
@@ -6,7 +7,8 @@ from relnav import words
 from relnav.model.lane import LaneValue
 
 PAD = 5
-# Stands for 1/0: overflows binary32 and saturates Q15.16, and keeps the exponent of q (600 below to 714 above) in its 12 bits.
+# Stands for 1/0: overflows binary32 and saturates Q15.16, and keeps the exponent of q (600 below to 714
+# above) in its 12 bits.
 HUGE: LaneValue = (1 << (words.MANT - 2), 1200)
 
 

@@ -1,4 +1,4 @@
-"""The microprogram as Verilog: `python -m relnav.model.rom` writes rtl/oltae/solve_program.v, one line a slot."""
+"""The microprogram as Verilog: `python -m relnav.model.rom` writes rtl/oltae/solve_program.v."""
 
 from __future__ import annotations
 
@@ -12,7 +12,7 @@ from relnav.model import pose_program as pose
 from relnav.model import statistics_program as statistics
 from relnav.model.schedule import Scheduler
 
-# name, width; most significant first. Slot fields belong to each term, result fields to a dot product's last slot.
+# name, width; most significant first. Slot fields are each term's, result fields a dot product's last slot's.
 SLOT_FIELDS = (
     ("x_address", 6),
     ("x_by_lane", 1),
@@ -108,7 +108,7 @@ DRAIN_LATENCY = 17
 
 @dataclass(frozen=True)
 class Program:
-    """The whole program, scheduled: dot products in order, and the re-application that is called in between."""
+    """The whole program, scheduled: dot products in order, and the re-application called in between."""
 
     dots: list[asm.Dot]
     newton: list[asm.Dot]
@@ -141,8 +141,8 @@ def addresses(dots: list[asm.Dot], cycle: int, address: int) -> list[int]:
 def reapplication(prefix: Scheduler, main: list[asm.Dot]) -> tuple[list[asm.Dot], int]:
     """The Newton step scheduled behind the quaternion, and the cycle in which the main program may go on.
 
-    `main`, scheduled without it, expects the quaternion and 1/p_0 when they were ready at first; the return is late enough
-    for the new ones, and for writes still under way not to meet those of `main`.
+    `main`, scheduled without it, expects the quaternion and 1/p_0 when they were ready at first; the return
+    is late enough for the new ones, and for writes still under way not to meet `main`'s.
     """
     call = prefix.next_slot
     before = dict(prefix.ready)
@@ -162,7 +162,7 @@ def scheduled() -> Program:
     dots = scheduler.run(pose.program())
     call = next(number for number, dot in enumerate(dots) if dot.name == "P3") + 1
     call_cycle = dots[call - 1].end + 1
-    # the low limbs may not come before the items whose places they take have been read, nor before the re-application
+    # the low limbs come after the items whose places they take have been read, and after the call
     last_use = max(dot.end for dot in dots if dot.name.startswith("ca"))
     redrain = max(last_use + 1 - DRAIN_EARLIEST, call_cycle + 1)
     scheduler.ready |= statistics.arrival(redrain + DRAIN_LATENCY)
@@ -244,7 +244,7 @@ module solve_program #(
 {chr(10).join(assigns)}
 endmodule
 `resetall
-"""
+"""  # noqa: E501  (lines of Verilog)
 
 
 def main() -> None:

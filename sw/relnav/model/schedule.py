@@ -1,4 +1,5 @@
-"""In-order list scheduler of the solve microprogram: gives every dot product its cycle, or proves that it has one."""
+# SPDX-License-Identifier: Apache-2.0
+"""In-order list scheduler of the solve microprogram: gives every dot product its cycle, and so proves it."""
 
 from __future__ import annotations
 
@@ -91,7 +92,8 @@ class Scheduler:
         if dot.write != NO_WRITE and done in self.busy_writes:
             return False
         if dot.divide != NO_DIVIDE and (
-            (done < self.divider_free and dot.divide != DIVIDE_TURNED) or done + RECIPROCAL_LATENCY in self.busy_writes
+            (done < self.divider_free and dot.divide != DIVIDE_TURNED)
+            or done + RECIPROCAL_LATENCY in self.busy_writes
         ):
             return False
         if stores(dot, cycle) & self.busy_stores:

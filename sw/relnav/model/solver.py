@@ -1,4 +1,5 @@
-"""Bit-exact model of the solve engine (rtl/oltae/solve_engine.v): four dot lanes, the divider, the microprogram."""
+# SPDX-License-Identifier: Apache-2.0
+"""Bit-exact model of the solve engine (rtl/oltae/solve_engine.v): dot lanes, divider, microprogram."""
 
 from __future__ import annotations
 
@@ -143,7 +144,7 @@ class Solver:
                 self.outputs[dot.output_index + stride * place] = values[place + 1]
 
     def hold(self, address: int, value: LaneValue, low: bool = False) -> None:
-        """An item for `run`: of the first drain, or a low limb of the second, which replaces an item no longer needed."""
+        """An item for `run`: of the first drain, or a low limb of the second, in place of one not needed."""
         if low:
             self.low_limbs.append((address, value))
         else:

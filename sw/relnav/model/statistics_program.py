@@ -1,13 +1,14 @@
 # SPDX-License-Identifier: Apache-2.0
 """The second half of the microprogram: residual, conditioning, determinant and the covariances of q and t.
 
-Everything here is dimensioned by data, so every dot product is probed: run once for its largest exponent, once for
-its sum. With q, M, S of the chosen turn and p the composed quaternion:
+Everything here is dimensioned by data, so every dot product is probed: run once for its largest exponent,
+once for its sum. With q, M, S of the chosen turn and p the composed quaternion:
 
-  rss = p^T (T I - 2 K) p / (|p|^2 W), K Davenport's matrix of B, in two limbs of every moment (pages of the datasheet)
+  rss = p^T (T I - 2 K) p / (|p|^2 W), K Davenport's matrix of B, two limbs a moment (see the datasheet)
   condition = tr M tr M^-1, determinant = det M / W^3
   P_theta = 4 s^2/(1+q^2)^2 [(1+q^2)(U + V) - V S V^T], U = (I - Q) M^-1, V = U Q      (attitude error, rad^2)
-  t_cov = s^2/W I + [c x] P_theta [c x]^T, c = R m_a/W;   q_cov = L P_theta L^T, L = (I + Q + q q^T)/2 of the composed q
+  t_cov = s^2/W I + [c x] P_theta [c x]^T, c = R m_a/W
+  q_cov = L P_theta L^T, L = (I + Q + q q^T)/2 of the composed q
   s^2 = VARIANCE, or rss / (3n - 6) where that is 0.
 """
 
@@ -16,7 +17,7 @@ from __future__ import annotations
 from relnav.model import assembler as asm
 from relnav.model import pose_program as pose
 from relnav.model.assembler import ALL, STREAM, Dot, Term, lanes
-from relnav.model.pose_program import CA, CD, CO, MD, MO, ONE, P, ROWS, item
+from relnav.model.pose_program import CA, CD, CO, MD, MO, ONE, ROWS, P, item
 
 # stream bank, after the second drain: the low limbs take the places of what is no longer needed
 KIND_T_LOW, KIND_P_LOW, KIND_N_LOW, KIND_B2_LOW = pose.KIND_E, pose.KIND_F, pose.KIND_H, pose.KIND_MA
@@ -45,7 +46,7 @@ L_ROW, LQ = (21, 22, 23), 20  # L P_theta (row private), its product with q
 
 
 def arrival(start: int) -> dict[int, int]:
-    """First cycle in which each low limb can be read, the first of the 21 items of the second drain being due at start."""
+    """First cycle in which each low limb can be read; the first item of the second drain is due at start."""
     order: list[int | None] = []
     for slot in (0, 1, 2):
         order += [item(slot, KIND_T_LOW), None, item(slot, KIND_B2_LOW)]
@@ -66,7 +67,9 @@ def probed(name: str, terms: list[Term], **keywords: object) -> Dot:
     return Dot(name, terms, reference=asm.REF_PROBED, **keywords)  # type: ignore[arg-type]
 
 
-def symmetric_row(diagonal: int, off: int, j: int, c: int, y: int, y_by_lane: bool, negate: frozenset[int]) -> list[Term]:
+def symmetric_row(
+    diagonal: int, off: int, j: int, c: int, y: int, y_by_lane: bool, negate: frozenset[int]
+) -> list[Term]:
     """Terms X_(i^c, j) * y of lane i = 1..3, X symmetric in the blocks diagonal[i] and off[i^j]."""
     diagonal_lane = frozenset({j ^ c}) & ROWS
     off_lanes = frozenset(i for i in ROWS if i ^ c not in (0, j))
@@ -74,7 +77,9 @@ def symmetric_row(diagonal: int, off: int, j: int, c: int, y: int, y_by_lane: bo
     if diagonal_lane:
         terms.append(Term(diagonal + j, y, negate=negate, enable=diagonal_lane, y_by_lane=y_by_lane))
     if off_lanes:
-        terms.append(Term(off + (c ^ j), y, negate=negate, enable=off_lanes, x_by_lane=True, y_by_lane=y_by_lane))
+        terms.append(
+            Term(off + (c ^ j), y, negate=negate, enable=off_lanes, x_by_lane=True, y_by_lane=y_by_lane)
+        )
     return terms
 
 
@@ -227,7 +232,9 @@ def attitude() -> list[Dot]:
         for k in (1, 2, 3):
             if k != j:
                 sign, axis = epsilon(k, j)
-                terms.append(Term(U_ROW[k - 1], Q_TURN + axis, negate=ALL if sign < 0 else frozenset(), enable=ROWS))
+                terms.append(
+                    Term(U_ROW[k - 1], Q_TURN + axis, negate=ALL if sign < 0 else frozenset(), enable=ROWS)
+                )
         dots.append(probed(f"V.{j}", terms, dest=V_ROW[j - 1]))
     for j in (1, 2, 3):
         terms = [
@@ -318,7 +325,8 @@ def outputs(name: str, index: int, columns: list[list[Term]], half: bool, mark: 
 def translation_covariance() -> list[Dot]:
     """t_cov = s^2/W I + [c x] P_theta [c x]^T."""
     dots = [
-        probed(f"[c x] theta.{j}", cross_rows(CD, CO, ROTATED, j, 1), dest=CROSS_ROW[j - 1]) for j in (1, 2, 3)
+        probed(f"[c x] theta.{j}", cross_rows(CD, CO, ROTATED, j, 1), dest=CROSS_ROW[j - 1])
+        for j in (1, 2, 3)
     ]
     columns = []
     for j in (1, 2, 3):
@@ -327,7 +335,9 @@ def translation_covariance() -> list[Dot]:
             if k != j:
                 sign, axis = epsilon(j, k)
                 terms.append(
-                    Term(CROSS_ROW[k - 1], ROTATED + axis, negate=ALL if sign < 0 else frozenset(), enable=ROWS)
+                    Term(
+                        CROSS_ROW[k - 1], ROTATED + axis, negate=ALL if sign < 0 else frozenset(), enable=ROWS
+                    )
                 )
         columns.append(terms)
     return dots + outputs("t_cov", 28, columns, False, "")

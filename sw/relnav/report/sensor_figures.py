@@ -88,10 +88,10 @@ def match_figure(flight: Flight, index: int) -> Picture:
     segments = np.stack([pair.uv_a[shown], pair.uv_b[shown] + shift], axis=1)
     axes.add_collection(LineCollection(list(segments), colors=colours, linewidths=0.7, alpha=0.85))
     for uv in (pair.uv_a, pair.uv_b + shift):
-        axes.scatter(*uv.T, s=5, color="#ffd43b", linewidths=0)
-        axes.scatter(*uv[shown].T, s=16, facecolors="none", edgecolors=colours, linewidths=1.0)
+        axes.scatter(uv[:, 0], uv[:, 1], s=5, color="#ffd43b", linewidths=0)
+        axes.scatter(uv[shown, 0], uv[shown, 1], s=16, facecolors="none", edgecolors=colours, linewidths=1.0)
     for uv in (pair.rejected[:, :2], pair.rejected[:, 2:] + shift):
-        axes.scatter(*uv.T, s=13, marker="x", color=BAD, linewidths=0.9)
+        axes.scatter(uv[:, 0], uv[:, 1], s=13, marker="x", color=BAD, linewidths=0.9)
     axes.set_axis_off()
     name = index
     for x, text in ((width / 2, f"frame {name}"), (1.5 * width + gap, f"frame {name + 1}")):

@@ -7,6 +7,7 @@ import io
 from collections.abc import Iterator
 from contextlib import contextmanager
 from dataclasses import dataclass
+from typing import Any
 
 import matplotlib as mpl
 from matplotlib.figure import Figure as MplFigure
@@ -23,7 +24,7 @@ BAD = "#c92a2a"
 BAND = "#fde3d3"  # 3-sigma, a tint of CORE
 AXES = ("x", "y", "z")
 
-_SETTINGS = {
+_SETTINGS: dict[Any, Any] = {  # matplotlib wants its keys as literals
     "font.family": "DejaVu Sans",
     "font.size": 9.5,
     "axes.titlesize": 10.5,

@@ -19,7 +19,7 @@ from relnav.model.raw import RawResult
 from . import job
 from .bus import PERIOD_NS, HarnessBus
 
-POLLS = 500  # each takes at least ten clocks, a frame that is fed at most 200
+POLLS = 200  # each takes at least 40 clocks, a frame that is fed at most 2048: then the watchdog barks
 
 
 @cocotb.test()
@@ -38,7 +38,7 @@ async def run_job(dut: Any) -> None:
 
     @bridge
     def drive() -> list[RawResult]:
-        driver = OltaeDriver(bus)
+        driver = OltaeDriver(bus, bus.idle)
         driver.identify()
         return [driver.solve(frame, config, feed=feed, polls=POLLS) for frame in frames]
 

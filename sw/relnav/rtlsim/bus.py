@@ -9,7 +9,7 @@ from pathlib import Path
 from typing import Any
 
 from cocotb.task import resume
-from cocotb.triggers import FallingEdge, SimTimeoutError, ValueChange, with_timeout
+from cocotb.triggers import FallingEdge, SimTimeoutError, Timer, ValueChange, with_timeout
 from cocotbext.axi import AxiLiteBus, AxiLiteMaster, AxiResp
 
 from relnav.errors import BackendError
@@ -17,6 +17,7 @@ from relnav.errors import BackendError
 PERIOD_NS = 10
 BEATS = Path("beats.hex")  # the harness's default, in the run's folder
 ANSWER_US = 100  # an access that takes longer will not end
+IDLE_CLOCKS = 32  # between two looks at the core
 BEAT_CLOCKS = 20  # a frame of which a beat takes longer on average will not end
 
 
@@ -38,6 +39,11 @@ class RegisterBus:
     async def write(self, address: int, value: int) -> None:
         """Write a register's word."""
         await self._answer(self.axil.write(address, value.to_bytes(4, "little")), f"write to 0x{address:03x}")
+
+    @resume
+    async def idle(self) -> None:
+        """Let the core work; much cheaper than to look at it again and again."""
+        await Timer(IDLE_CLOCKS * PERIOD_NS, "ns")
 
     async def _answer(self, access: Any, what: str) -> Any:
         try:

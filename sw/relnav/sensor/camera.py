@@ -43,8 +43,8 @@ class Pinhole:
 
     def project(self, points: Array) -> Array:
         """Pixel coordinates (..., 2) of points (..., 3) m in the sensor frame, z > 0."""
-        xy = points[..., :2] / points[..., 2:]
-        return xy * self.focal + np.array([(self.width - 1) / 2, (self.height - 1) / 2])
+        centre = np.array([(self.width - 1) / 2, (self.height - 1) / 2])
+        return np.asarray(points[..., :2] / points[..., 2:] * self.focal + centre)
 
     def grid(self) -> Array:
         """Rays (height, width, 3) of unit depth through every pixel's centre."""
@@ -113,15 +113,15 @@ class Ground:
             wave /= 2.0
         return albedo, tilt
 
-    def _octave(self, xy: Array, wave: float, shift: Array, turn: float) -> Array:
+    def _octave(self, xy: Array, wave: float, shift: Array, turn: float) -> NDArray[np.float32]:
         """Unit-variance noise (h, w) of one wavelength, m, at world places (h, w, 2)."""
         c, s = np.cos(turn), np.sin(turn)
         texel = self.TEXELS_PER_WAVE / wave
         u = np.mod((c * xy[..., 0] - s * xy[..., 1]) * texel + shift[0], self.TILE)
         v = np.mod((s * xy[..., 0] + c * xy[..., 1]) * texel + shift[1], self.TILE)
         u32, v32 = u.astype(np.float32), v.astype(np.float32)
-        noise: Array = cv2.remap(self._tile, u32, v32, cv2.INTER_LINEAR, borderMode=cv2.BORDER_WRAP)
-        return noise
+        noise = cv2.remap(self._tile, u32, v32, cv2.INTER_LINEAR, borderMode=cv2.BORDER_WRAP)
+        return np.asarray(noise, dtype=np.float32)
 
 
 def _band_noise(rng: np.random.Generator, size: int, texels_per_wave: float) -> NDArray[np.float32]:
@@ -130,7 +130,7 @@ def _band_noise(rng: np.random.Generator, size: int, texels_per_wave: float) -> 
     with np.errstate(divide="ignore"):
         band = np.exp(-0.5 * (np.log2(frequency) / 0.5) ** 2)
     noise = np.fft.ifft2(np.fft.fft2(rng.standard_normal((size, size))) * band).real
-    return (noise / noise.std()).astype(np.float32)
+    return np.asarray(noise / noise.std(), dtype=np.float32)
 
 
 @dataclass(frozen=True, eq=False)

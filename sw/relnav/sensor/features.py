@@ -45,7 +45,7 @@ class Features:
 def detect(image: Image, limit: int) -> Features:
     """The strongest ``limit`` SIFT features, one a place (SIFT repeats a place for each orientation)."""
     # without precise upscaling every place is a quarter of a pixel off, which rotation turns into a drift
-    sift = cv2.SIFT_create(nfeatures=limit, enable_precise_upscale=True)
+    sift = cv2.SIFT.create(nfeatures=limit, enable_precise_upscale=True)
     points, descriptors = sift.detectAndCompute(image, None)
     if descriptors is None or len(points) == 0:
         return Features(np.zeros((0, 2)), np.zeros(0), np.zeros((0, 128), dtype=np.float32))
@@ -141,7 +141,7 @@ def gate(a: Array, b: Array, variance: Array, rng: np.random.Generator, *, trial
         residual = _residual(a, b, *kabsch(a[pick], b[pick])) / scale
         if np.median(residual) < np.median(best):
             best = residual
-    kept = best <= 3.0 * np.median(best)
+    kept: Mask = best <= 3.0 * np.median(best)
     for _ in range(10):
         residual = _residual(a, b, *kabsch(a[kept], b[kept], 1.0 / variance[kept])) / scale
         # the median of the length of a 3-D unit normal vector is 1.538

@@ -46,7 +46,7 @@ class Lidar:
 
     def _unit_rays(self) -> Array:
         rays = self.pinhole.grid()
-        return rays / np.linalg.norm(rays, axis=-1, keepdims=True)
+        return np.asarray(rays / np.linalg.norm(rays, axis=-1, keepdims=True))
 
 
 @dataclass(frozen=True, eq=False)

@@ -59,15 +59,15 @@ class Terrain:
 
     def index_of(self, xy: Array) -> tuple[Array, Array]:
         """Fractional (column, row) of points (..., 2) m; clipped to the grid, as the axes may be uneven."""
-        column = np.interp(xy[..., 0], self.x, np.arange(self.x.size, dtype=float))
-        row = np.interp(xy[..., 1], self.y, np.arange(self.y.size, dtype=float))
+        column: Array = np.interp(xy[..., 0], self.x, np.arange(self.x.size, dtype=float))
+        row: Array = np.interp(xy[..., 1], self.y, np.arange(self.y.size, dtype=float))
         return column, row
 
     @cached_property
     def slope(self) -> tuple[Array, Array]:
         """dz/dx and dz/dy, (ny, nx) each; 0 where unknown."""
         dz_dy, dz_dx = np.gradient(self.z, self.y, self.x)
-        return np.nan_to_num(dz_dx), np.nan_to_num(dz_dy)
+        return np.asarray(np.nan_to_num(dz_dx)), np.asarray(np.nan_to_num(dz_dy))
 
     def mesh(self) -> tuple[Array, NDArray[np.int64]]:
         """Vertices (m, 3) m and triangles (f, 3), two a cell; cells that touch a NaN are left out."""

@@ -75,7 +75,7 @@ def crp_of(rotation: Array) -> Array:
             rotation[0, 1] - rotation[1, 0],
         ]
     )
-    return vector / (1.0 + np.trace(rotation))
+    return np.asarray(vector / (1.0 + np.trace(rotation)))
 
 
 def approach(terrain: Terrain, frames: int) -> Trajectory:

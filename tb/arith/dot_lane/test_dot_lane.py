@@ -102,6 +102,35 @@ def random_register(rng: random.Random) -> Register:
     return Register(False, exponent, random_mantissa(rng))
 
 
+class Terms:
+    """The terms of a run so far, and the model's sum of them."""
+
+    def __init__(self, wide: bool) -> None:
+        self.model = DotLane(wide)
+        self.reference: int | None = None
+        self.bank: list[LaneValue] = []
+        self.operands: list[tuple[int, int, bool]] = []
+
+    def begin(self, reference: int | None) -> None:
+        self.reference = reference
+        self.model.run(self.bank, self.operands, reference)
+
+    def add(self, x: LaneValue, y: LaneValue, negate: bool) -> bool:
+        """False, and nothing added, if the microprogram must not have such a term."""
+        place = len(self.bank)
+        self.bank += [x, y]
+        self.operands.append((place, place + 1, negate))
+        try:
+            self.model.run(self.bank, self.operands, self.reference)
+        except LaneOverflow:
+            self.operands.pop()
+            return False
+        return True
+
+    def above(self, exponent: int) -> bool:
+        return self.model.reference is not None and exponent > self.model.reference
+
+
 @dataclass
 class Bench:
     """Stimulus of one lane and what it has to answer."""
@@ -174,21 +203,24 @@ class Bench:
         if kind == "probed":
             self.probing_pass(places)
             self.pause(self.rng.choice([0, 0, 1, 3]))
-        model = DotLane(wide=self.wide)
+        terms = Terms(self.wide)
         overflow = False
         for number, place in enumerate(places):
             x, y, negate = self.slot(first=number == 0, chance=0.9, **place)
             exponent = x.exponent + y.exponent
-            live = bool(self.fields[self.cycle]["enable"]) and not x.zero and not y.zero
             if number == 0:
-                model.reference = self.reference(kind, exponent)
+                terms.begin(self.reference(kind, exponent))
             self.put(self.cycle + REFERENCE, own_reference=int(kind == "own"), probing=0)
-            if live and not self.accepts(model, kind, x, y, negate):
-                self.put(self.cycle, enable=0)
-            elif live:
-                overflow |= model.reference is not None and exponent > model.reference
+            if self.fields[self.cycle]["enable"] and not x.zero and not y.zero:
+                if x.mantissa and y.mantissa:
+                    fits = terms.add(x.value, y.value, negate)
+                else:  # an unflagged zero would set the reference, and report an exponent above it
+                    fits = terms.model.reference is not None and not terms.above(exponent)
+                above = not fits and kind == "broken" and terms.above(exponent)
+                overflow |= above
+                self.put(self.cycle, enable=int(fits or above))
             self.tick()
-        self.finish(model, overflow)
+        self.finish(terms.model, overflow)
 
     def reference(self, kind: str, exponent: int) -> int | None:
         """Give a run its reference; None is its own."""
@@ -201,21 +233,6 @@ class Bench:
         given = exponent + self.rng.choice([0, 1, self.rng.randint(0, 90), self.rng.randint(0, 200)])
         self.put(self.cycle + REFERENCE, reference=given, probed_reference=0)
         return given
-
-    def accepts(self, model: DotLane, kind: str, x: Register, y: Register, negate: bool) -> bool:
-        """Add a term to the model, if the microprogram could have it."""
-        if not x.value[0] or not y.value[0]:
-            # an unflagged zero would set the reference, and report an exponent above it
-            return model.reference is not None and x.exponent + y.exponent <= model.reference
-        before = model.acc, model.reference
-        try:
-            model.term(x.value, y.value, negate)
-        except LaneOverflow:
-            model.acc, model.reference = before
-            return (
-                kind == "broken" and model.reference is not None and x.exponent + y.exponent > model.reference
-            )
-        return True
 
     def probing_pass(self, places: list[dict[str, int]]) -> None:
         """The first pass of a probed run."""

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""value_feeder: order, addresses, scales, the correction W 2^15, the variance's binary32 and its denormals."""
+"""value_feeder: order, addresses, scales, the correction W 2^15, the variance and its denormals."""
 
 from __future__ import annotations
 
@@ -24,9 +24,7 @@ ADDRESSES = [
 VARIANCES = [0, 1, 0x007FFFFF, 0x00800000, 0x00800001, 0x3F800000, 0x7F7FFFFF]  # denormals among them
 
 
-def values(
-    weight: int, count: int, moments: list[int], scale: int, variance: int
-) -> list[tuple[int, int]]:
+def values(weight: int, count: int, moments: list[int], scale: int, variance: int) -> list[tuple[int, int]]:
     """(integer, exponent of its unit) in the order of ADDRESSES; `moments` are a_x b_x a_y b_y a_z b_z."""
     shifted = [m + (weight << (LIMB - 1)) for m in moments]
     axes = [(m, scale) for m in shifted[0::2] + shifted[1::2]]
@@ -55,7 +53,7 @@ def test_value_feeder(weighted: int, simulator: str, tmp_path: Path) -> None:
     widths = [1, 1, words.W, COUNT, *[words.M1] * 6, 12, 32]
     stimulus: list[int] = []
     expected = []
-    for _ in range(800):
+    for _ in range(400):
         weight, count, moments, scale, variance = frame(rng, words)
         held = [weight, count, *reversed(moments), scale, variance]
         start = len(stimulus) + 1

@@ -21,7 +21,7 @@ BUILDS = {
     "lean": {"WEIGHTED": 0, "COVARIANCE": 0, "REAPPLY": 0},
 }
 # Icarus simulates some 3000 clocks a second, a twentieth of Verilator's
-THOROUGH = {"FRAMES": "100", "STEP": "7"}
+THOROUGH = {"FRAMES": "64", "STEP": "7"}
 QUICK = {"FRAMES": "14", "STEP": "149"}
 LONGEST = 65535
 

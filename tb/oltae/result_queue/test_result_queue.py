@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""result_queue: every kind of output, one after the other without a gap, marks, both strides, resets under way."""
+"""result_queue: every kind of output, back to back, marks, both strides, resets under way."""
 
 from __future__ import annotations
 

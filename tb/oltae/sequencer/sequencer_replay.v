@@ -15,9 +15,10 @@ module sequencer_replay (
   wire [5:0] call, target, leave, finish;
 
   // {there, first, last, probed}
-  reg [3:0] program[0:63];
+  reg [3:0] rom[0:63];
   reg [3:0] word;
   reg [5:0] at;
+  reg cleared;
   wire run, probing, reapplied;
   wire [9:0] counter, address;
   wire leaving = counter == {4'd0, leave};
@@ -25,9 +26,10 @@ module sequencer_replay (
   wire [9:0] following = calling ? {4'd0, target} : leaving ? {4'd0, call} : counter;
   wire finished = address == {4'd0, finish};
   always @(posedge clk) begin
-    if (write) program[write_address] <= write_word;
-    word <= run & ~|address[9:6] ? program[address[5:0]] : 4'd0;
+    if (write) rom[write_address] <= write_word;
+    word <= run & ~|address[9:6] ? rom[address[5:0]] : 4'd0;
     at   <= address[5:0];
+    cleared <= clear;
   end
 
   sequencer dut (
@@ -54,7 +56,7 @@ module sequencer_replay (
       .clk(clk),
       .rst(rst),
       .word({clear, start, stop, reapply, write, write_address, write_word, call, target, leave, finish}),
-      .result({word[3], at, probing, reapplied}),
+      .result({word[3] & ~cleared, at, probing, reapplied}),
       .done(done)
   );
 endmodule

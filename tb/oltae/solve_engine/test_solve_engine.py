@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""solve_engine against its model: random clouds, angles, noise, shapes; every written word and its cycle order."""
+"""solve_engine against its model: random clouds, angles, noise, shapes; every word and its order."""
 
 from __future__ import annotations
 

@@ -41,6 +41,7 @@ def test_every_signal_of_the_layout_exists(wave: Path) -> None:
 
 def test_it_opens_at_the_last_beat(wave: Path) -> None:
     text = place_layout(wave).read_text()
-    start, marker = re.search(r"\[timestart\] (\d+)", text), re.search(r"^\*-[\d.]+ (\d+) ", text, re.MULTILINE)
+    start = re.search(r"\[timestart\] (\d+)", text)
+    marker = re.search(r"^\*-[\d.]+ (\d+) ", text, re.MULTILINE)
     assert start is not None and marker is not None
     assert int(marker[1]) - int(start[1]) == 150_000 and int(start[1]) > 0

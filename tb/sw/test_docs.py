@@ -1,0 +1,53 @@
+# SPDX-License-Identifier: Apache-2.0
+"""The documents against the tree: modules listed, links that lead somewhere, blocks that scripts can fill."""
+
+from __future__ import annotations
+
+import re
+from pathlib import Path
+
+import pytest
+
+from scripts.marked import fill
+from sim.sources import ROOT, sources
+
+PAGES = [
+    ROOT / "README.md",
+    ROOT / "CHANGELOG.md",
+    *sorted((ROOT / "docs").rglob("*.md")),
+    ROOT / "rtl/README.md",
+    ROOT / "tb/README.md",
+]
+MARKERS = {"README.md": {"sim", "pose", "python", "numbers", "area", "timing"}, "docs/oltae.md": {"latency"}}
+
+
+def test_rtl_readme_names_every_module_and_no_other() -> None:
+    text = (ROOT / "rtl/README.md").read_text()
+    tree = "".join(line for line in text.splitlines(keepends=True) if line.startswith("    "))
+    listed = {
+        name
+        for names in re.findall(r"^ +((?:[a-z]\w*, )*[a-z]\w*)(?= |$)", tree, re.MULTILINE)
+        for name in names.split(", ")
+    }
+    assert listed == {file.stem for file in sources()}
+
+
+@pytest.mark.parametrize("page", PAGES, ids=lambda page: str(page.relative_to(ROOT)))
+def test_links_lead_somewhere(page: Path) -> None:
+    for target in re.findall(r"\]\(([^)]+)\)", page.read_text()):
+        if not target.startswith(("http", "#")):
+            assert (page.parent / target.partition("#")[0]).exists(), target
+
+
+def test_every_block_is_there() -> None:
+    for page, names in MARKERS.items():
+        assert set(re.findall(r"<!-- (\w+):begin -->", (ROOT / page).read_text())) == names
+
+
+def test_fill(tmp_path: Path) -> None:
+    page = tmp_path / "page.md"
+    page.write_text("a\n<!-- x:begin -->\nold\n<!-- x:end -->\nb\n")
+    assert fill(page, "x", "new \\1") and not fill(page, "x", "new \\1")
+    assert page.read_text() == "a\n<!-- x:begin -->\nnew \\1\n<!-- x:end -->\nb\n"
+    with pytest.raises(SystemExit, match="no <!-- y:begin"):
+        fill(page, "y", "")
