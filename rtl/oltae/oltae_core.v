@@ -62,7 +62,7 @@ module oltae_core #(
     output wire        watchdog
 );
   localparam [2:0] IDLE = 3'd0, LOAD = 3'd1, COMPUTE = 3'd2, DONE = 3'd3;
-  localparam WATCHDOG_BITS = 11;  // 2048 clocks of COMPUTE: the longest program takes a quarter
+  localparam WATCHDOG_BITS = 11;  // 2048 clocks of COMPUTE: the longest program takes half of them
 
   // ------------------------------------------------------------------ state machine
   reg [2:0] state;

@@ -195,7 +195,7 @@ class Oltae:
         FIELDS = {"FRAC": FRAC}
 
     class VARIANCE(Register):
-        """Variance. Locked while busy. sa^2 + sb^2 at unit weight, binary32; 0: use rss / (3n - 6)."""
+        """Variance. Locked while busy. sa^2 + sb^2 at unit weight, binary32; 0: use rss / (3n - 6), n counting the points of positive weight."""
 
         ADDRESS = 0x02C
         ACCESS = "rw"
@@ -347,7 +347,7 @@ class Oltae:
         FIELDS = {"VALUE": VALUE}
 
     class Q_COV(Register):
-        """Covariance of q. Upper triangle, row-major: 11 12 13 22 23 33."""
+        """Covariance of q. Upper triangle, row-major: 11 12 13 22 23 33. Without meaning where Q is not finite, or CONFIG.COVARIANCE is 0."""
 
         ADDRESS = 0x158
         ACCESS = "ro"

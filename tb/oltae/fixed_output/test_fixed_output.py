@@ -6,7 +6,6 @@ from __future__ import annotations
 import random
 from pathlib import Path
 
-import pytest
 from relnav.model.lane import DotLane
 from relnav.words import LANE_ACC
 
