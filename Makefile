@@ -10,8 +10,10 @@ JOBS ?= 2
 PYTEST_ARGS ?=
 # more options for `relnav landing`, such as LANDING_ARGS='--frames 5 --backend icarus'
 LANDING_ARGS ?=
+# --quick: a few cases, nothing kept
+BENCH_ARGS ?=
 
-.PHONY: help setup sim test waves synth timing docs lint format clean distclean
+.PHONY: help setup sim test waves synth timing bench docs lint format clean distclean
 
 help: ## this list
 	@awk -F ':.*## ' '/^[a-z%<>-]+:.*## / { printf "  make %-14s %s\n", $$1, $$2 }' $(MAKEFILE_LIST)
@@ -41,6 +43,9 @@ timing: setup ## place and route on ECP5-85k with nextpnr (slow), into syn/resul
 
 docs: setup ## fill the tables of README and docs/ from the last runs (after make sim)
 	@$(BIN)/python scripts/readme_sim.py && $(BIN)/python scripts/latency.py && $(BIN)/python scripts/decisions.py
+
+bench: setup ## accuracy, 3-sigma bounds and flags of the model, into bench/results.json (BENCH_ARGS=--quick)
+	@$(BIN)/python -m bench $(BENCH_ARGS)
 
 lint: setup ## ruff, mypy, verible, Verilator on every module alone, Icarus, Yosys, shellcheck
 	@scripts/lint.sh

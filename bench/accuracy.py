@@ -142,7 +142,7 @@ def report(cases: Sequence[Errors]) -> dict[str, Any]:
         "slope": max(((case.q or 0.0) / (case.size or 1.0) for case in far), default=None),
         "failed_below_1e6": [case.to_json() for case in failed],
         "broken": [case.to_json() for case in cases if BROKEN in case.flags],
-        "turn_loss": max(case.turn_loss for case in cases),
+        "turn_loss": max((case.turn_loss for case in bounded), default=0.0),
         "bins": bins_of(cases),
         "sizes": sizes_of(cases),
     }
@@ -176,8 +176,8 @@ def text(found: dict[str, Any]) -> str:
             "",
             f"q where kappa(M) < {BOUND_KAPPA:g}, by |q| = tan(angle / 2); over: beyond {BOUND:g}",
             table(["|q|", "cases", "q", "over", "worst"], sizes),
-            f"|dq| / |q| beyond 100: at most {number(found['slope'])} |q|",
-            f"det M of the turn taken: at most {number(found['turn_loss'])} below the largest",
+            f"|dq| / |q| where |q| > 100: at most {number(found['slope'])} |q|",
+            f"det M of the turn taken: at most {number(found['turn_loss'])} below the largest there",
             f"frames with kappa < {BINS[-1]:g} refused: {len(found['failed_below_1e6'])}",
             f"frames that broke a word length of the model: {len(found['broken'])}",
         ]

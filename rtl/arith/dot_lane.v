@@ -37,7 +37,8 @@ module dot_lane #(
     input  wire               own_reference,
     input  wire               probing,
     input  wire               probed_reference,
-    // slot's result format, cycle 6
+    // slot's result format, cycle 4 and 6
+    input  wire               round_raw,       // of a raw result: the sum begins with half its unit
     input  wire               half,
     input  wire               clamp,           // a negative result becomes zero
     // register writes
@@ -158,7 +159,8 @@ module dot_lane #(
     end
   endgenerate
   wire [ACC-1:0] addend = {{(ACC - ALIGNED) {aligned[ALIGNED-1]}}, aligned};
-  wire [ACC-1:0] base = acc & {ACC{~first_4}};
+  localparam [ACC-1:0] HALF = 1 << (`RELNAV_LANE_RAW - 1 + NARROW_DROP - DROP);
+  wire [ACC-1:0] base = (acc & {ACC{~first_4}}) | (HALF & {ACC{first_4 & round_raw}});
   // The carry enters through a bit below the sum. The addend stands first: its register is the carry chain's data.
   wire [ACC:0] next = {addend, negate_4} + {base, negate_4};
 

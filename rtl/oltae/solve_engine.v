@@ -219,6 +219,7 @@ module solve_engine #(
           .own_reference(own),
           .probing(probing_2),
           .probed_reference(probed_2),
+          .round_raw(raw_pipe[3]),
           .half(half_pipe[5]),
           .clamp(k == 0 ? clamp_pipe[5] : 1'b0),
           .write(register_write),

@@ -91,7 +91,7 @@ class OltaeCore:
         solver = Solver(forbid_turns=config.forbid_turns, reapply=config.reapply and self.weighted)
         for address, value, low in self.items(frame, config):
             solver.hold(address, value, low)
-        solver.run(self.program)
+        solver.run(self.program, whole=False)
         if solver.rank_deficient:
             return RawResult(flags=flag("RANK_DEFICIENT"))
         if solver.ill_conditioned:

@@ -118,10 +118,11 @@ class DotLane:
         return self.acc >> (DROP - self.drop)
 
     def raw(self) -> LaneValue:
-        """Sum in the fixed format ``narrow >> LANE_RAW``: keeps the exponent common to a block."""
+        """Sum in the fixed format ``narrow >> LANE_RAW``, rounded: keeps the exponent common to a block."""
         if self.reference is None:
             return ZERO
-        mantissa = self.narrow >> RAW
+        half = 1 << (RAW - 1 + DROP - self.drop)  # the accumulator begins with it
+        mantissa = (self.acc + half) >> (DROP - self.drop) >> RAW
         if not -(1 << (MANT - 1)) <= mantissa < 1 << (MANT - 1):
             raise LaneOverflow("raw result too wide")
         return mantissa, wrapped(self.reference + DROP + RAW)

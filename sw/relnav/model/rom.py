@@ -73,11 +73,11 @@ def slot_words(dot: asm.Dot) -> list[int]:
             "only_estimated": term.only_estimated,
             "only_first": term.only_first,
             "reference_code": dot.reference,
+            "kind": dot.kind,
         }
         if last:
             values |= {
                 "last": 1,
-                "kind": dot.kind,
                 "half": dot.half,
                 "clamp": dot.clamp,
                 "write": dot.write,

@@ -150,8 +150,11 @@ class Solver:
         else:
             self.load(address, value)
 
-    def run(self, program: Program) -> None:
-        """The program in issue order; the schedule proves that the pipelined engine does the same."""
+    def run(self, program: Program, *, whole: bool = True) -> None:
+        """The program in issue order; the schedule proves that the pipelined engine does the same.
+
+        The core drops a rank-deficient frame when the turn is chosen; with ``whole`` the engine is looked at alone.
+        """
         step = range(program.call, program.call + len(program.newton) if self.reapply else program.call)
         pending = True
         for number, dot in enumerate(program.in_order(self.reapply)):
@@ -161,6 +164,8 @@ class Solver:
                     for bank in self.registers:
                         bank[asm.STREAM + address] = value
             self.execute(dot)
+            if dot.choose_turn and self.rank_deficient and not whole:
+                return
 
     @property
     def rank_deficient(self) -> bool:

@@ -12,7 +12,7 @@ module dot_lane_replay #(
     output wire done
 );
   wire check, x_by_lane, y_by_lane, alternate, negate, enable, first;
-  wire own_reference, probing, probed_reference, half, clamp;
+  wire own_reference, probing, probed_reference, round_raw, half, clamp;
   wire write, write_broadcast, write_raw, stream_write;
   wire [5:0] x_address;
   wire [4:0] y_address, write_address, stream_address;
@@ -37,6 +37,7 @@ module dot_lane_replay #(
       .own_reference(own_reference),
       .probing(probing),
       .probed_reference(probed_reference),
+      .round_raw(round_raw),
       .half(half),
       .clamp(clamp),
       .write(write),
@@ -56,14 +57,14 @@ module dot_lane_replay #(
   always @(posedge clk) checked <= rst ? 7'd0 : {checked[6:1], check};
 
   replay #(
-      .IN_BITS (1 + 6 + 1 + 5 + 5 + 14 + 3 + 2 + 1 + 5 + 2 + 48 + 1 + 5 + 48),
+      .IN_BITS (1 + 6 + 1 + 5 + 5 + 14 + 3 + 3 + 1 + 5 + 2 + 48 + 1 + 5 + 48),
       .OUT_BITS(1 + 1 + 1 + 48 + 1 + 48)
   ) u_replay (
       .clk(clk),
       .rst(rst),
       .word({
         {check, x_address, x_by_lane, y_address, y_by_lane, alternate, negate, enable, first},
-        {base, own_reference, probing, probed_reference, half, clamp},
+        {base, own_reference, probing, probed_reference, round_raw, half, clamp},
         {write, write_address, write_broadcast, write_raw, broadcast},
         {stream_write, stream_address, stream_value}
       }),

@@ -34,6 +34,7 @@ WIDTHS = {
     "own_reference": 1,
     "probing": 1,
     "probed_reference": 1,
+    "round_raw": 1,
     "half": 1,
     "clamp": 1,
     "write": 1,
@@ -55,12 +56,13 @@ IDLE = {
         "alternate",
         "negate",
         "reference",
+        "round_raw",
         "half",
         "clamp",
     ),
     *("write_address", "write_broadcast", "write_raw", "broadcast", "stream_address", "stream_value"),
 }
-REFERENCE, RAW, FORMAT, RESULT = 2, 5, 6, 7  # cycles after the slot
+REFERENCE, BEGIN, RAW, FORMAT, RESULT = 2, 4, 5, 6, 7  # cycles after the slot
 UNTOUCHED = -4096  # the probe of a run without a term
 
 
@@ -205,6 +207,8 @@ class Bench:
             self.pause(self.rng.choice([0, 0, 1, 3]))
         terms = Terms(self.wide)
         overflow = False
+        rounded = self.rng.random() < 0.2  # for a raw result; the sum itself then holds half a unit more
+        self.put(self.cycle + BEGIN, round_raw=int(rounded))
         for number, place in enumerate(places):
             x, y, negate = self.slot(first=number == 0, chance=0.9, **place)
             exponent = x.exponent + y.exponent
@@ -220,7 +224,7 @@ class Bench:
                 overflow |= above
                 self.put(self.cycle, enable=int(fits or above))
             self.tick()
-        self.finish(terms.model, overflow)
+        self.finish(terms.model, overflow, rounded)
 
     def reference(self, kind: str, exponent: int) -> int | None:
         """Give a run its reference; None is its own."""
@@ -247,13 +251,13 @@ class Bench:
                 self.probe = max(self.probe, x.exponent + y.exponent)
             self.tick()
 
-    def finish(self, model: DotLane, overflow: bool) -> None:
+    def finish(self, model: DotLane, overflow: bool, rounded: bool) -> None:
         """The run's last slot was the cycle before: format, expectations, writes."""
         last = self.cycle - 1
         half, clamp = self.rng.random() < 0.3, self.rng.random() < 0.3
         self.put(last, check=1)
         self.put(last + FORMAT, half=int(half), clamp=int(clamp))
-        known = not overflow
+        known = not (overflow or rounded)
         result = model.result(half, clamp) if known else None
         total = model.narrow % (1 << 48) if known and -(1 << 47) <= model.narrow < 1 << 47 else None
         self.expected[last + RAW, "sum"] = Outcome(overflow, total, None)
@@ -264,7 +268,7 @@ class Bench:
             raw = model.raw()
         except LaneOverflow:
             return
-        if known and self.rng.random() < 0.6:
+        if rounded and not overflow and self.rng.random() < 0.6:
             self.store(last + RAW, raw, raw=1)
 
     def store(self, cycle: int, value: LaneValue, raw: int) -> None:
