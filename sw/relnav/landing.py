@@ -60,8 +60,10 @@ def run_landing(
     out = Path("out") if out is None else out
     backend = backend or _installed_simulator()
     solver = solver or _solve
-    if out.exists() and not out.is_dir():
-        raise InputError(f"{out}: is a file; the report needs a folder")
+    try:
+        out.mkdir(parents=True, exist_ok=True)
+    except OSError as error:
+        raise InputError(f"{out}: no folder for the report: {error.strerror}") from None
     simulator = Simulator(load_terrain(terrain), frames, images, seed)
     kinds = list(dict.fromkeys([backend, "fixed", "double"]))
     with tqdm(
@@ -77,7 +79,9 @@ def run_landing(
         timings = time_solvers([pair.frame for pair in flight.pairs])
         bar.update()
         bar.set_description_str("drawing", refresh=False)
-        rows = write_report(solved, timings, out, waves=_waveform(), area=AREA, step=bar.update)
+        # without RTL there is no waveform of this run, and another run's would mislead
+        waves = _waveform() if backend in SIMULATORS else out / "oltae_top.fst"
+        rows = write_report(solved, timings, out, waves=waves, area=AREA, step=bar.update)
         bar.set_description_str("done")
     counts = f"{len(flight.exposures)} frames, {len(flight.pairs)} poses"
     print(key_table(f"Landing over {flight.terrain.name}: {counts} by {solver_name(backend)}", rows))

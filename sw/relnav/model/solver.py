@@ -153,7 +153,7 @@ class Solver:
     def run(self, program: Program, *, whole: bool = True) -> None:
         """The program in issue order; the schedule proves that the pipelined engine does the same.
 
-        The core drops a rank-deficient frame when the turn is chosen; with ``whole`` the engine is looked at alone.
+        The core drops a rank-deficient frame when the turn is chosen; ``whole`` is the engine alone.
         """
         step = range(program.call, program.call + len(program.newton) if self.reapply else program.call)
         pending = True
