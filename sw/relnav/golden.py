@@ -206,10 +206,13 @@ def relative_determinant(matrix: FloatArray, m: Moments) -> float:
 
     The core's moments, M among them, carry a factor W, which moves P.
     """
-    largest = m.weight * float(np.diag(m.saa + m.sbb).max())
+    largest = float(np.diag(m.saa + m.sbb).max())
     if not largest > 0.0:
         return 0.0
-    return cramer(np.ldexp(m.weight * matrix, 1 - int(np.frexp(largest)[1])), np.zeros(3))[0]
+    # of W only the mantissa, of the unit only what is left: nothing leaves double's range
+    (weight, _), (size, exponent) = np.frexp(m.weight), np.frexp(largest)
+    scaled = weight * np.ldexp(matrix, -int(exponent))
+    return cramer(np.ldexp(scaled, 1 - int(np.frexp(weight * size)[1])), np.zeros(3))[0]
 
 
 def turn(m: Moments, k: int) -> Moments:
