@@ -60,11 +60,13 @@ def run_landing(
     out = Path("out") if out is None else out
     backend = backend or _installed_simulator()
     solver = solver or _solve
-    try:
+    if out.exists() and not out.is_dir():
+        raise InputError(f"{out}: is a file; the report needs a folder")
+    simulator = Simulator(load_terrain(terrain), frames, images, seed)
+    try:  # before the flight, not after it
         out.mkdir(parents=True, exist_ok=True)
     except OSError as error:
         raise InputError(f"{out}: no folder for the report: {error.strerror}") from None
-    simulator = Simulator(load_terrain(terrain), frames, images, seed)
     kinds = list(dict.fromkeys([backend, "fixed", "double"]))
     with tqdm(
         total=frames + len(kinds) + 3 + FIGURES,

@@ -10,7 +10,7 @@ import cocotb
 
 from tb.common import clocks
 
-GROUPS = {"q": range(6), "pose": range(6, 18), "all": range(18, 64)}
+GROUPS = {"q": range(3), "pose": range(3, 18), "all": range(18, 64)}
 IDLE = dict.fromkeys(("write_valid", "write_index", "write_data", "read_valid", "read_index"), 0)
 IDLE |= {f"{name}_commit": 0 for name in GROUPS}
 
