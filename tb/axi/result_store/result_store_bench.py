@@ -44,8 +44,8 @@ async def zero_at_power_up_and_between_reads(dut: Any) -> None:
     await clocks.start(dut, **IDLE)
     for index in range(64):
         assert await read(dut, index) == 0
-    await write(dut, 3, 0xFFFFFFFF, "q")
-    assert await read(dut, 3) == 0xFFFFFFFF
+    await write(dut, 2, 0xFFFFFFFF, "q")
+    assert await read(dut, 2) == 0xFFFFFFFF
     await clocks.tick(dut)
     assert int(dut.read_data.value) == 0
 
