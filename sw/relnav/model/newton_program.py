@@ -131,7 +131,7 @@ def step() -> list[Dot]:
         *pose.adjugate(asm.REF_COFACTOR),
         Dot(
             "D''",
-            [Term(MD + 1, CD + 1), Term(MO + 2, CO + 2), Term(MO + 3, CO + 3)],
+            pose.determinant_terms(),
             reference=asm.REF_PROBED,
             write=asm.BROADCAST,
             source=0,

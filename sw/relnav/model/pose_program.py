@@ -149,11 +149,16 @@ def adjugate(reference: int = asm.OWN) -> list[Dot]:
     ]
 
 
+def determinant_terms() -> list[Term]:
+    """det M = sum_j M_1j C_1j."""
+    return [Term(MD + 1, CD + 1), Term(MO + 2, CO + 2), Term(MO + 3, CO + 3)]
+
+
 def determinant() -> Dot:
     """D/2 of every turn; the largest chooses the turn."""
     return Dot(
         "D",
-        [Term(MD + 1, CD + 1), Term(MO + 2, CO + 2), Term(MO + 3, CO + 3)],
+        determinant_terms(),
         half=True,
         write=asm.BROADCAST,
         source=asm.TURN,

@@ -148,7 +148,7 @@ def determinant() -> list[Dot]:
     dots = [
         Dot(
             "D",
-            [Term(MD + 1, CD + 1), Term(MO + 2, CO + 2), Term(MO + 3, CO + 3)],
+            pose.determinant_terms(),
             reference=asm.REF_PROBED,
             write=asm.BROADCAST,
             source=asm.TURN,
