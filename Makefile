@@ -10,10 +10,14 @@ JOBS ?= 2
 PYTEST_ARGS ?=
 # more options for `relnav landing`, such as LANDING_ARGS='--frames 5 --backend icarus'
 LANDING_ARGS ?=
+# more options for `relnav proximity`, such as PROXIMITY_ARGS='--camera --frames 50'
+PROXIMITY_ARGS ?=
+# of `make waves`
+CORE ?= oltae_top
 # --quick: a few cases, nothing kept
 BENCH_ARGS ?=
 
-.PHONY: help setup sim test waves synth timing bench docs lint format clean distclean
+.PHONY: help setup sim sim-ivisnav test waves synth timing bench docs lint format clean distclean
 
 help: ## this list
 	@awk -F ':.*## ' '/^[a-z%<>-]+:.*## / { printf "  make %-14s %s\n", $$1, $$2 }' $(MAKEFILE_LIST)
@@ -21,8 +25,11 @@ help: ## this list
 setup: ## install what is missing: .venv, and Debian packages where that is possible
 	@scripts/setup.sh
 
-sim: setup ## fly the 25-frame landing through the RTL and write the report (LANDING_ARGS=...)
+sim: setup ## fly the 25-frame landing through OLTAE's RTL and write the report (LANDING_ARGS=...)
 	@$(BIN)/relnav landing $(LANDING_ARGS)
+
+sim-ivisnav: setup ## move a plate before iVisNav's beacons, through the RTL, and write the report (PROXIMITY_ARGS=...)
+	@$(BIN)/relnav proximity $(PROXIMITY_ARGS)
 
 test: setup ## the whole regression on Icarus and Verilator (JOBS=2, PYTEST_ARGS=...)
 	@$(BIN)/python -m pytest -n $(JOBS) $(PYTEST_ARGS)
@@ -32,8 +39,8 @@ sim-%: setup ## the testbenches of one module or folder of tb/, e.g. sim-centrin
 	if [ -z "$$folders" ]; then echo "make: no folder of tb/ is called $*" >&2; exit 2; fi; \
 	$(BIN)/python -m pytest $(PYTEST_ARGS) $$folders
 
-waves: setup ## open GTKWave on the last run of oltae_top (without a screen: write the FST)
-	@sim/waves.sh
+waves: setup ## open GTKWave on the last run of CORE=oltae_top or ivisnav_top (without a screen: write the FST)
+	@sim/waves.sh $(CORE)
 
 synth: setup ## area on Xilinx 7 with Yosys, into syn/results.json and the README
 	@$(BIN)/python syn/synth.py
@@ -41,8 +48,9 @@ synth: setup ## area on Xilinx 7 with Yosys, into syn/results.json and the READM
 timing: setup ## place and route on ECP5-85k with nextpnr (slow), into syn/results.json and the README
 	@$(BIN)/python syn/timing.py
 
-docs: setup ## fill the tables of README and docs/ from the last runs (after make sim)
-	@$(BIN)/python scripts/readme_sim.py && $(BIN)/python scripts/latency.py && $(BIN)/python scripts/decisions.py
+docs: setup ## fill the tables of README and docs/ from the last runs (after make sim sim-ivisnav)
+	@$(BIN)/python scripts/readme_sim.py && $(BIN)/python scripts/latency.py && \
+	  $(BIN)/python scripts/ivisnav_sheet.py && $(BIN)/python scripts/decisions.py
 
 bench: setup ## accuracy, 3-sigma bounds and flags of the model, into bench/results.json (BENCH_ARGS=--quick)
 	@$(BIN)/python -m bench $(BENCH_ARGS)

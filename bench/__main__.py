@@ -6,7 +6,7 @@ from __future__ import annotations
 import argparse
 import sys
 
-from bench import accuracy, limits, three_sigma
+from bench import accuracy, limits, rates, three_sigma
 from bench.common import JOBS
 
 
@@ -18,7 +18,7 @@ def main() -> int:
     options = parser.parse_args()
     arguments = [*(["--quick"] if options.quick else []), "--jobs", str(options.jobs)]
     failed = 0
-    for part in (accuracy, limits, three_sigma):
+    for part in (accuracy, limits, three_sigma, rates):
         failed |= part.main(arguments)
         print()
     return failed

@@ -34,7 +34,8 @@ from relnav.model.reciprocal import reciprocal  # noqa: E402
 from relnav.model.rom import scheduled  # noqa: E402
 from relnav.quantise import QuantisedFrame, quantise  # noqa: E402
 
-from scripts.marked import fill  # noqa: E402
+from scripts import ivisnav_notes  # noqa: E402
+from scripts.marked import fill, table  # noqa: E402
 
 Table = list[tuple[str, ...]]
 NOTES = ROOT / "docs" / "decisions"
@@ -70,12 +71,6 @@ def q_error(raw: RawResult, truth: exact.ExactPose) -> float:
     assert truth.q is not None
     expected = np.array([float(x) for x in truth.q])
     return float(np.linalg.norm(floats(raw.q) - expected) / np.linalg.norm(expected))
-
-
-def table(head: tuple[str, ...], rows: Table) -> str:
-    """Markdown."""
-    lines = ["| " + " | ".join(head) + " |", "|" + "---|" * len(head)]
-    return "\n".join([*lines, *("| " + " | ".join(row) + " |" for row in rows)])
 
 
 # ---- the notes
@@ -393,6 +388,7 @@ MEASURES: dict[str, Callable[[], str]] = {
     "static-schedule": static_schedule,
     "turns": turns,
     "exponent-range": exponent_range,
+    **ivisnav_notes.MEASURES,
 }
 
 

@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Latency of oltae_top in cycles, from its own counters, into the table of docs/oltae.md.
+"""Latency of the cores in cycles, from their own counters, into the tables of docs/oltae.md and ivisnav.md.
 
-python scripts/latency.py [--simulator icarus|verilator]
+python scripts/latency.py [--simulator icarus|verilator] [--core oltae|ivisnav]
 """
 
 from __future__ import annotations
@@ -16,11 +16,14 @@ ROOT = Path(__file__).resolve().parent.parent
 sys.path[:0] = [str(ROOT), str(ROOT / "sw")]
 
 from relnav.frames import make_frame  # noqa: E402 (the path is set above)
+from relnav.model.rates_program import Mark  # noqa: E402
+from relnav.model.rates_schedule import schedule  # noqa: E402
 from relnav.model.raw import CoreConfig  # noqa: E402
 from relnav.quantise import QuantisedFrame, quantise  # noqa: E402
-from relnav.rtlsim import run_frames  # noqa: E402
+from relnav.rtlsim import run_frames, run_rate_frames  # noqa: E402
 
-from scripts.marked import fill  # noqa: E402
+from bench.rate_cases import noisy_rows, ring_rows  # noqa: E402
+from scripts.marked import fill, table  # noqa: E402
 
 LEAN = {"WEIGHTED": 0, "COVARIANCE": 0, "REAPPLY": 0}
 
@@ -38,11 +41,8 @@ def frame(weighted: bool, degrees: float) -> QuantisedFrame:
     return quantise(make_frame(a, b, rng.integers(1, 100, 20) if weighted else None))
 
 
-def main() -> int:
-    """Simulate every build and mode."""
-    parser = argparse.ArgumentParser(description="latency of oltae_top, into docs/oltae.md")
-    parser.add_argument("--simulator", default="icarus", choices=("icarus", "verilator"))
-    simulator = parser.parse_args().simulator
+def oltae(simulator: str) -> str:
+    """Every build and mode."""
     modes: tuple[tuple[str, dict[str, int], bool, CoreConfig], ...] = (
         ("full, unweighted", {}, False, CoreConfig()),
         ("full, weighted", {}, True, CoreConfig()),
@@ -62,9 +62,50 @@ def main() -> int:
             straight, turned = (getattr(result, key) for result in results)
             cells.append(str(straight) if straight == turned else f"{straight} (turned {turned})")
         lines.append(f"| {name} | {' | '.join(cells)} |")
-    fill(ROOT / "docs" / "oltae.md", "latency", "\n".join(lines))
-    print("\n".join(lines))
+    return "\n".join(lines)
+
+
+FIRST_SUM = 20  # gram_ring's, from the last beat
+MOST_TO_REGISTER = 4
+
+
+def ivisnav(simulator: str) -> str:
+    """Where the cycles go by the schedule, and what the counters say."""
+    rows = [ring_rows(("alternately skewed", 0.5, 2.0, weighted), 0) for weighted in (False, True)]
+    rows.append(noisy_rows(1, 20, 40)[0])
+    ((rates, everything),) = {(r.cycles_rates, r.cycles_all) for r in run_rate_frames(rows, simulator)}
+    assert rates is not None and everything is not None
+    marks = [schedule().cycle(mark) for mark in (Mark.RATES, Mark.ALL)]
+    # behind the program both take the same pipeline: else schedule and RTL are of different times
+    (behind,) = {counted - mark - FIRST_SUM for counted, mark in zip((rates, everything), marks, strict=True)}
+    assert 0 < behind <= MOST_TO_REGISTER, behind
+    return table(
+        ("result", "last beat to first sum", "program", "to the register", "counted"),
+        [
+            (name, str(FIRST_SUM), str(mark), str(behind), str(counted))
+            for name, mark, counted in zip(
+                ("v and omega", "rss and covariance"), marks, (rates, everything), strict=True
+            )
+        ],
+    )
+
+
+def main() -> int:
+    """Simulate."""
+    parser = argparse.ArgumentParser(
+        description="latency of the cores, into docs/oltae.md and docs/ivisnav.md"
+    )
+    parser.add_argument("--simulator", default="icarus", choices=("icarus", "verilator"))
+    parser.add_argument("--core", choices=MEASURES, help="one core (default: all)")
+    options = parser.parse_args()
+    for core in (options.core,) if options.core else MEASURES:
+        text = MEASURES[core](options.simulator)
+        fill(ROOT / "docs" / f"{core}.md", "latency", text)
+        print(f"{core}\n{text}\n")
     return 0
+
+
+MEASURES = {"oltae": oltae, "ivisnav": ivisnav}
 
 
 if __name__ == "__main__":

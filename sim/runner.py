@@ -391,7 +391,7 @@ def build_and_test(
     absent = [str(file) for file in given if not file.is_file()]
     if absent or not given:
         raise SimulationFailed(f"{top}: no such source: {', '.join(absent) or '(empty list)'}")
-    files = tuple(reachable(top, given))
+    files = tuple(reachable(top, given, defines))
     headers = tuple(
         Path(d).resolve() for d in ([RTL / "include"] if includes is None else includes) if Path(d).is_dir()
     )

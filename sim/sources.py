@@ -4,7 +4,7 @@
 from __future__ import annotations
 
 import re
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from pathlib import Path
 
 ROOT = Path(__file__).resolve().parent.parent
@@ -20,10 +20,11 @@ def sources(*folders: str, rtl_dir: Path | None = None) -> list[Path]:
     return [file for folder in found for file in sorted(folder.glob("*.v"))]
 
 
-def reachable(top: str, files: Sequence[Path]) -> list[Path]:
+def reachable(top: str, files: Sequence[Path], defines: Mapping[str, object] | None = None) -> list[Path]:
     """Those of `files` that module `top` is made of, in the same order; all where no file has its name.
 
-    Any mention of a module's name outside comments counts, which errs on the side of a file too many.
+    Any mention of a module's name outside comments counts, which errs on the side of a file too many; one
+    through a macro of `defines` too.
     """
     by_name = {file.stem: file for file in files}
     if top not in by_name:
@@ -31,6 +32,8 @@ def reachable(top: str, files: Sequence[Path]) -> list[Path]:
     found, open_names = {top}, [top]
     while open_names:
         text = _COMMENT.sub("", by_name[open_names.pop()].read_text())
+        for macro, value in (defines or {}).items():
+            text = re.sub(rf"`{macro}\b", str(value).replace("\\", r"\\"), text)
         mentioned = (set(re.findall(r"\b[A-Za-z_]\w*\b", text)) & by_name.keys()) - found
         found |= mentioned
         open_names += sorted(mentioned)

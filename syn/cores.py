@@ -51,6 +51,14 @@ CORES = (
             "lean": {"LUT": 5545, "FF": 7597, "DSP": 48},
         },
     ),
+    Core(
+        top="ivisnav_top",
+        folders=("axi", "arith", "gram", "ivisnav"),
+        builds={"full": {}},
+        paper={"LUT": 35488, "LUTRAM": 1555, "FF": 14968, "BRAM": 12.5, "DSP": 120},
+        paper_source="iVisNav paper, Table I",
+        goals={"full": {"LUT": 12000, "FF": 12000, "DSP": 48, "BRAM": 2}},
+    ),
 )
 
 

@@ -33,37 +33,24 @@ module reciprocal (
   reg [13:0] five, seven;
   reg [34:0] remainder;
 
-  // ---- digit: the thresholds of |v| = 1, 2, 3, 4 are 1, 3, 5 and 7 halves of |m|. A digit may be one off its rounding as
-  // long as the remainder stays below 4/7 |m|: thresholds may be off by |m|/14 >= 2^34 / 28. With 8r and the multiples cut
-  // to units of 2^29 and five, seven off by less than 7/2 2^24, they are off by less than 2^34 (1/32 + 7/2048) < 2^34 / 28.
   wire below_zero = remainder[34];
-  wire positive = ~(below_zero ^ divisor[34]);  // the digit's sign
-  wire [8:0] r = remainder[34:26];
-  wire [8:0] t_1 = {{4{divisor[34]}}, divisor[34:30]};
-  wire [8:0] t_2 = {{2{triple[36]}}, triple[36:30]};
-  wire [8:0] t_3 = {five[13], five[13:6]};
-  wire [8:0] t_4 = {seven[13], seven[13:6]};
-  // 8r - t less one unit where the signs agree, 8r + t where they differ: either way less than a unit off
-  wire [8:0] beyond_1 = r + (t_1 ^ {9{positive}});
-  wire [8:0] beyond_2 = r + (t_2 ^ {9{positive}});
-  wire [8:0] beyond_3 = r + (t_3 ^ {9{positive}});
-  wire [8:0] beyond_4 = r + (t_4 ^ {9{positive}});
-  wire [4:1] reached = ~({beyond_4[8], beyond_3[8], beyond_2[8], beyond_1[8]} ^ {4{below_zero}});
-
-  // ---- remainder; its 35 bits hold |r| <= 4/7 2^34, the bits above cancel
-  wire [34:0] multiple;
-  mux4 #(
+  wire positive;  // the digit's sign
+  wire subtract;  // positive and not 0
+  wire [4:1] reached;
+  wire [34:0] next;
+  srt_digit #(
       .WIDTH(35)
-  ) choose (
-      .select({reached[3], reached[4] | (reached[2] & ~reached[3])}),
-      .in_0(divisor),
-      .in_1({divisor[33:0], 1'b0}),
-      .in_2(triple[34:0]),
-      .in_3({divisor[32:0], 2'd0}),
-      .out(multiple)
+  ) u_digit (
+      .divisor(divisor),
+      .triple(triple),
+      .five(five),
+      .seven(seven),
+      .remainder(remainder),
+      .positive(positive),
+      .subtract(subtract),
+      .reached(reached),
+      .next(next)
   );
-  wire subtract = positive & reached[1];
-  wire [35:0] next = {remainder[31:0], 3'd0, subtract} + {(multiple ^ {35{positive}}) & {35{reached[1]}}, subtract};
 
   // ---- quotient: digit v = 8 carry + low - 7. The sevens of all digits are 8^DIGITS - 1: modulo 8^DIGITS they add one.
   reg [3*DIGITS-1:0] low;
@@ -89,7 +76,7 @@ module reciprocal (
       end
     end
     if (start) remainder <= 35'h080000000;
-    else remainder <= next[35:1];
+    else remainder <= next;
     low   <= {low[3*DIGITS-4:0], next_low};
     carry <= {carry[DIGITS-3:0], subtract};
     step  <= start ? 4'd1 : (step == 4'd0 || step == LAST[3:0]) ? 4'd0 : step + 4'd1;
@@ -113,6 +100,6 @@ module reciprocal (
   assign done = step == LAST[3:0];
   assign result = {1'b0, exponent, high, last, {PAD{1'b0}}};
 
-  wire unused = &{1'b0, next[0], five[5:0], seven[5:0], corrected[3], beyond_1[7:0], beyond_2[7:0], beyond_3[7:0], beyond_4[7:0]};
+  wire unused = &{1'b0, corrected[3]};
 endmodule
 `resetall

@@ -237,6 +237,7 @@ module gram_array #(
       ) u_lane (
           .clk(clk),
           .clear(clear),
+          .hold_x(1'b0),
           .load_x(OWN != 0 ? step : next_load_x),
           .load_y(OWN != 0 ? step : next_load_y),
           .x(x_tap),

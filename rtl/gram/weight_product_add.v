@@ -4,12 +4,14 @@
 `default_nettype none
 
 (* keep_hierarchy *)
-module weight_product_add (
-    input  wire               clk,
-    input  wire        [15:0] weight,
-    input  wire signed [15:0] limb,
-    input  wire signed [47:0] addend,
-    output reg signed  [47:0] total
+module weight_product_add #(
+    parameter LIMB_BITS = 16
+) (
+    input  wire                        clk,
+    input  wire        [         15:0] weight,
+    input  wire signed [LIMB_BITS-1:0] limb,    // below 2^16 in magnitude
+    input  wire signed [         47:0] addend,
+    output reg signed  [         47:0] total
 );
   reg signed [32:0] product;
   wire signed [47:0] extended = {{15{product[32]}}, product};

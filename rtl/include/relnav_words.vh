@@ -34,4 +34,14 @@
 `define RELNAV_ILL_BITS 22
 // power of two the reciprocal divides
 `define RELNAV_RECIPROCAL_NUMERATOR 61
+// places behind the point of the exact residual's sums
+`define RELNAV_RESIDUAL_UNIT 56
+// the residual takes scaled rates below this power of two
+`define RELNAV_RATE_BITS 26
+// pivots this many powers of two below their diagonal element are noise
+`define RELNAV_PIVOT_BITS 22
+// octaves, in eighths, that what a refinement leaves must lie below the rates
+`define RELNAV_CONVERGED 148
+// largest cond(H)^2, a binary32 word
+`define RELNAV_CONDITION_LIMIT 1249125376
 `endif

@@ -2,8 +2,7 @@
 // OLTAE core: beats of points in, results out, with the state machine of the paper's Fig. 6 around them.
 //
 //   beats -> gram_array -> moment_stream (centring, butterfly, normaliser) -> solve_engine -> result words
-//   IDLE -> LOAD (first beat) -> COMPUTE (last beat) -> DONE (all results) -> IDLE (acknowledge) or LOAD (next frame)
-//   An error, the watchdog or a soft reset leads back to IDLE from anywhere.
+//   frame_state: IDLE -> LOAD -> COMPUTE -> DONE; three groups of results, q, pose and all
 //
 // Latency in clocks from the last accepted beat: docs/oltae.md, measured by the cycle counters here.
 `include "relnav_words.vh"
@@ -41,78 +40,64 @@ module oltae_core #(
     output wire        write_valid,
     output wire [ 5:0] write_index,
     output wire [31:0] write_data,
-    output wire        q_commit,
-    output wire        pose_commit,
-    output wire        all_commit,
+    output wire [ 2:0] commit,  // all, pose, q
     // status
     output wire [ 2:0] state_code,
     output wire        busy,
-    output reg         q_ready,
-    output reg         pose_ready,
-    output reg         all_ready,
+    output wire [ 2:0] ready,   // all, pose, q
     output reg  [15:0] points,
     output reg  [31:0] weight,
     output reg  [ 1:0] turn,
-    output reg  [15:0] cycles_q,
-    output reg  [15:0] cycles_pose,
-    output reg  [15:0] cycles_all,
+    output wire [15:0] cycles_q,
+    output wire [15:0] cycles_pose,
+    output wire [15:0] cycles_all,
     output wire        rank_deficient,
     output wire        ill_conditioned,
     output wire        saturated,
     output wire        watchdog
 );
-  localparam [2:0] IDLE = 3'd0, LOAD = 3'd1, COMPUTE = 3'd2, DONE = 3'd3;
-  localparam WATCHDOG_BITS = 11;  // 2048 clocks of COMPUTE: the longest program takes half of them
-
   // ------------------------------------------------------------------ state machine
-  reg [2:0] state;
-  reg [15:0] cycles;
   wire chosen, engine_rank_deficient, engine_ill_conditioned, engine_saturated;
   wire q_done, pose_done, all_done;
   wire [1:0] engine_turn;
-  wire computing = state == COMPUTE;
+  wire computing;
 
-  assign watchdog        = computing & cycles[WATCHDOG_BITS];
   assign rank_deficient  = computing & chosen & engine_rank_deficient;
   assign ill_conditioned = computing & chosen & engine_ill_conditioned;
-  assign saturated       = pose_commit & engine_saturated;
-  assign q_commit        = computing & q_done;
-  assign pose_commit     = computing & pose_done;
-  assign all_commit      = computing & all_done;
-  assign state_code      = state;
-  assign busy            = state == LOAD | computing;
-  assign accept          = ~busy;
+  assign saturated       = commit[1] & engine_saturated;
+
+  frame_state #(
+      .WATCHDOG_BITS(11),  // the longest program takes half of them
+      .LOADING_NAME ("LOAD")
+  ) states (
+      .clk(clk),
+      .rst(rst),
+      .soft_reset(soft_reset),
+      .acknowledge(acknowledge),
+      .accept(accept),
+      .frame_start(frame_start),
+      .frame_end(frame_end),
+      .frame_dropped(frame_dropped),
+      .done({all_done, pose_done, q_done}),
+      .refused(rank_deficient),
+      .computing(computing),
+      .commit(commit),
+      .state(state_code),
+      .busy(busy),
+      .ready(ready),
+      .cycles_first(cycles_q),
+      .cycles_middle(cycles_pose),
+      .cycles_last(cycles_all),
+      .watchdog(watchdog)
+  );
 
   always @(posedge clk) begin
-    case (state)
-      IDLE: if (frame_start) state <= LOAD;
-      LOAD: if (frame_end) state <= COMPUTE;
-            else if (frame_dropped) state <= IDLE;
-      COMPUTE: if (all_done) state <= DONE;
-      DONE: if (frame_start) state <= LOAD;
-            else if (acknowledge) state <= IDLE;
-      default: state <= IDLE;
-    endcase
-    if (soft_reset | rank_deficient | watchdog | rst) state <= IDLE;
-  end
-
-  always @(posedge clk) begin
-    cycles <= frame_end ? 16'd1 : cycles + 16'd1;
-    if (frame_start) {q_ready, pose_ready, all_ready} <= 3'd0;
-    if (q_commit) begin
-      q_ready  <= 1'b1;
-      points   <= point_count;
-      weight   <= {{(32 - `RELNAV_W(WEIGHTED)) {1'b0}}, weight_sum};
-      turn     <= engine_turn;
-      cycles_q <= cycles;
+    if (commit[0]) begin
+      points <= point_count;
+      weight <= {{(32 - `RELNAV_W(WEIGHTED)) {1'b0}}, weight_sum};
+      turn   <= engine_turn;
     end
-    if (pose_commit) {pose_ready, cycles_pose} <= {1'b1, cycles};
-    if (all_commit) {all_ready, cycles_all} <= {1'b1, cycles};
-    if (rst) begin
-      {q_ready, pose_ready, all_ready} <= 3'd0;
-      {points, weight, turn} <= 50'd0;
-      {cycles_q, cycles_pose, cycles_all} <= 48'd0;
-    end
+    if (rst) {points, weight, turn} <= 50'd0;
   end
 
   // ------------------------------------------------------------------ moments
@@ -125,9 +110,13 @@ module oltae_core #(
   wire [`RELNAV_COUNT-1:0] point_count, used_count;
   wire [6*`RELNAV_M1(WEIGHTED)-1:0] first_moments;
   wire flush = clear | soft_reset;
-  wire redrain;
+  wire engine_redrain;
+  reg redrain;   // a clock later: the way from the program's address to the lanes is long, and the schedule leaves that clock
   reg low_pass;  // the second drain, for the low limbs
-  always @(posedge clk) low_pass <= (low_pass | redrain) & ~flush & ~rst;
+  always @(posedge clk) begin
+    redrain  <= engine_redrain & ~flush & ~rst;
+    low_pass <= (low_pass | redrain) & ~flush & ~rst;
+  end
 
   gram_array #(
       .WEIGHTED(WEIGHTED)
@@ -252,7 +241,7 @@ module oltae_core #(
       .item_valid(item_valid & wanted),
       .item_first(item_tag == 7'd0),
       .item_low(item_low),
-      .redrain(redrain),
+      .redrain(engine_redrain),
       .item_address(item_address),
       .item_value({item_zero, item_exp, item_mant}),
       .write_valid(write_valid),
@@ -267,19 +256,5 @@ module oltae_core #(
       .ill_conditioned(engine_ill_conditioned),
       .saturated(engine_saturated)
   );
-
-  // synthesis translate_off
-  /* verilator lint_off UNUSEDSIGNAL */
-  reg [8*7-1:0] state_name;  // for the waves
-  /* verilator lint_on UNUSEDSIGNAL */
-  always @*
-    case (state)
-      IDLE: state_name = "IDLE";
-      LOAD: state_name = "LOAD";
-      COMPUTE: state_name = "COMPUTE";
-      DONE: state_name = "DONE";
-      default: state_name = "?";
-    endcase
-  // synthesis translate_on
 endmodule
 `resetall

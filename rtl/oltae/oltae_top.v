@@ -51,11 +51,10 @@ module oltae_top #(
   wire [31:0] config_variance;
   wire push_valid, push_last, push_ready, push_open;
   wire [63:0] push_data;
-  wire busy, q_ready, pose_ready, all_ready;
+  wire busy, q_ready, pose_ready, all_ready, q_commit, pose_commit, all_commit;
   wire [2:0] state;
   wire frame_start, frame_end, frame_dropped, few_points, zero_weight, bad_tlast, too_long;
   wire rank_deficient, ill_conditioned, saturated, watchdog;
-  wire q_commit, pose_commit, all_commit;
   wire [15:0] points, cycles_q, cycles_pose, cycles_all;
   wire [31:0] weight;
   wire [1:0] turn;
@@ -105,9 +104,7 @@ module oltae_top #(
       .push_open(push_open),
       .busy(busy),
       .state(state),
-      .q_ready(q_ready),
-      .pose_ready(pose_ready),
-      .all_ready(all_ready),
+      .ready({all_ready, pose_ready, q_ready}),
       // the register file adds BUSY_WRITE and NOT_BUILT itself
       .flag_set({1'b0, watchdog, ill_conditioned, saturated, 1'b0, bad_tlast, too_long, zero_weight, rank_deficient, few_points}),
       .frame_start(frame_start),
@@ -131,7 +128,9 @@ module oltae_top #(
   wire [15:0] beat_weight;
 
   frame_loader #(
-      .WEIGHTED(WEIGHTED)
+      .BEATS(3),
+      .LEAST(3),
+      .WEIGHTED(WEIGHTED != 0 ? 1 : 0)
   ) loader (
       .clk(clk),
       .rst(rst),
@@ -158,7 +157,7 @@ module oltae_top #(
       .frame_start(frame_start),
       .frame_end(frame_end),
       .frame_dropped(frame_dropped),
-      .few_points(few_points),
+      .few_rows(few_points),
       .zero_weight(zero_weight),
       .bad_tlast(bad_tlast),
       .too_long(too_long)
@@ -197,14 +196,10 @@ module oltae_top #(
       .write_valid(write_valid),
       .write_index(write_index),
       .write_data(write_data),
-      .q_commit(q_commit),
-      .pose_commit(pose_commit),
-      .all_commit(all_commit),
+      .commit({all_commit, pose_commit, q_commit}),
       .state_code(state),
       .busy(busy),
-      .q_ready(q_ready),
-      .pose_ready(pose_ready),
-      .all_ready(all_ready),
+      .ready({all_ready, pose_ready, q_ready}),
       .points(points),
       .weight(weight),
       .turn(turn),
@@ -217,15 +212,16 @@ module oltae_top #(
       .watchdog(watchdog)
   );
 
-  result_store store (
+  result_store #(
+      .MIDDLE_FIRST(3),  // q
+      .LAST_FIRST  (18)  // q in Q15.16, R, t; then all else
+  ) store (
       .clk(clk),
       .rst(rst),
       .write_valid(write_valid),
       .write_index(write_index),
       .write_data(write_data),
-      .q_commit(q_commit),
-      .pose_commit(pose_commit),
-      .all_commit(all_commit),
+      .commit({all_commit, pose_commit, q_commit}),
       .read_valid(result_valid),
       .read_index(result_index),
       .read_wait(result_wait),

@@ -1,5 +1,8 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Relative navigation: pose from matched 3-D points, in double, bit-exact integers and simulated RTL."""
+"""Relative navigation: pose from matched 3-D points, rates from laser phases.
+
+In double, in the cores' bit-exact arithmetic and in their simulated RTL.
+"""
 
 from __future__ import annotations
 
@@ -10,6 +13,7 @@ if TYPE_CHECKING:  # numpy and the rest are loaded by the first call, not by `im
 
     from numpy.typing import ArrayLike
 
+    from .ivisnav.result import RatesResult
     from .result import PoseResult
 
 __version__ = "0.1.0"
@@ -48,3 +52,35 @@ def pose(
         raise InputError("sigma_a and sigma_b must not both be 0")
     config = CoreConfig(forbid_turns=forbid_turns, reapply=reapply, variance=variance)
     return solve([make_frame(a, b, w)], backend, config=config, rtl_dir=rtl)[0]
+
+
+def rates(
+    r: ArrayLike,
+    p: ArrayLike,
+    dphi: ArrayLike,
+    f0: float,
+    dt: float,
+    w: ArrayLike | None = None,
+    *,
+    sigma: float | None = None,
+    covariance: ArrayLike | None = None,
+    backend: str = "fixed",
+    rtl: str | Path | None = None,
+) -> RatesResult:
+    """The rates v, omega that make dphi = 4 pi f0 / c r^ . (v + omega x p) dt of six or more laser beams.
+
+    r (n, 3): directions, any length; p (n, 3): m, where the beams meet the plate, from its centre, same axes.
+    dphi (n,): rad per interval; f0: modulation frequency, Hz; dt: interval, s.
+    w (n,): weights, inverse variances up to one factor, or covariance (n, n): of dphi, rad^2, not both.
+    sigma: standard deviation of dphi at unit weight, rad; without it and without covariance the residuals
+    scale cov, which needs more than six rows.
+    backend: "double", "fixed" (the core's arithmetic, bit by bit), "icarus", "verilator" (its RTL).
+    rtl: simulate this copy of the RTL.
+    Check `flags` of the result: a frame that cannot be solved has None for its numbers.
+    Raises relnav.errors.InputError, BackendError.
+    """
+    from .ivisnav.backends import solve_rates
+    from .ivisnav.rows import make_rate_frame
+
+    frame = make_rate_frame(r, p, dphi, w, covariance)
+    return solve_rates([frame], backend, f0=f0, dt=dt, sigma=sigma, rtl_dir=rtl)[0]

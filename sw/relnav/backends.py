@@ -4,6 +4,7 @@
 from __future__ import annotations
 
 import importlib
+import sys
 from collections.abc import Sequence
 from pathlib import Path
 from typing import Any
@@ -17,6 +18,7 @@ from .result import PoseResult
 
 SIMULATORS = ("icarus", "verilator")
 BACKENDS = ("double", "fixed", *SIMULATORS)
+ROOT = Path(__file__).resolve().parents[2]
 
 
 def solve(
@@ -34,10 +36,7 @@ def solve(
     Raises InputError, BackendError.
     """
     config = config or CoreConfig()
-    if backend not in BACKENDS:
-        raise BackendError(f"no backend {backend!r}: one of {', '.join(BACKENDS)}")
-    if rtl_dir is not None and backend not in SIMULATORS:
-        raise BackendError(f"other RTL needs a simulator: backend {' or '.join(SIMULATORS)}, not {backend}")
+    check_backend(backend, rtl_dir)
     quantised = [quantise(frame) for frame in frames]
     for frame in quantised:
         config.variance_word(frame.weight_scale)  # refused for all or for none
@@ -53,6 +52,20 @@ def solve(
     return [raw_to_pose(next(raws) if frame.n else empty, frame.name, frame) for frame in quantised]
 
 
+def check_backend(backend: str, rtl_dir: str | Path | None) -> None:
+    """Raises BackendError for an unknown backend, or other RTL for one that simulates none."""
+    if backend not in BACKENDS:
+        raise BackendError(f"no backend {backend!r}: one of {', '.join(BACKENDS)}")
+    if rtl_dir is not None and backend not in SIMULATORS:
+        raise BackendError(f"other RTL needs a simulator: backend {' or '.join(SIMULATORS)}, not {backend}")
+
+
+def check_rtl(rtl_dir: str | Path | None) -> None:
+    """Raises BackendError where there is no such folder."""
+    if rtl_dir is not None and not Path(rtl_dir).is_dir():
+        raise BackendError(f"{rtl_dir}: no such RTL directory")
+
+
 def _double(frame: Frame, config: CoreConfig) -> PoseResult:
     return golden.estimate(
         frame.a,
@@ -66,7 +79,7 @@ def _double(frame: Frame, config: CoreConfig) -> PoseResult:
 
 
 def _fixed(frames: list[QuantisedFrame], config: CoreConfig) -> list[RawResult]:
-    core = _part("model.core").OltaeCore()
+    core = part("model.core").OltaeCore()
     return [core.run(frame, config) for frame in frames]
 
 
@@ -77,18 +90,28 @@ def _simulated(
     config: CoreConfig,
     waves: Path | None,
 ) -> list[RawResult]:
-    if rtl_dir is not None and not Path(rtl_dir).is_dir():
-        raise BackendError(f"{rtl_dir}: no such RTL directory")
-    run_frames = _part("rtlsim").run_frames
+    check_rtl(rtl_dir)
+    run_frames = part("rtlsim").run_frames
     raws: list[RawResult] = run_frames(frames, simulator, rtl_dir=rtl_dir, config=config, waves=waves)
     if len(raws) != len(frames):
         raise BackendError(f"{simulator} returned {len(raws)} results for {len(frames)} frames")
     return raws
 
 
-def _part(name: str) -> Any:
+def part(name: str) -> Any:
     """A part of the package that only some backends need, loaded when they do."""
     try:
         return importlib.import_module(f"relnav.{name}")
     except ImportError as error:
         raise BackendError(f"this backend cannot be loaded: {error}") from None
+
+
+def installed_simulator() -> str:
+    """Verilator, which is quick, else Icarus."""
+    if not (ROOT / "sim" / "runner.py").is_file():  # the package without its checkout
+        return "fixed"
+    if str(ROOT) not in sys.path:
+        sys.path.append(str(ROOT))
+    from sim.runner import missing
+
+    return next((name for name in ("verilator", "icarus") if not missing(name)), "fixed")

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""The command line. Exit codes: 0 well, 1 RTL and model differ, 2 bad input, 3 a frame has no pose."""
+"""The command line. Exit codes: 0 well, 1 RTL and model differ, 2 bad input, 3 a frame has no result."""
 
 from __future__ import annotations
 
@@ -9,19 +9,25 @@ import json
 import math
 import os
 import sys
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from pathlib import Path
-from typing import NoReturn
+from typing import Any, NoReturn, TypeVar
 
 from . import __version__
 from .backends import BACKENDS, solve
 from .errors import BackendError, RelnavError, one_line
 from .frames import read_frames
+from .ivisnav.backends import solve_rates
+from .ivisnav.result import RatesResult
+from .ivisnav.rows import read_rate_frames
 from .model.raw import CoreConfig
-from .table import pose_table
+from .result import PoseResult
+from .table import pose_table, rates_table
+
+AnyResult = TypeVar("AnyResult", PoseResult, RatesResult)
 
 EXIT_BAD_INPUT = 2
-EXIT_NO_POSE = 3
+EXIT_NO_RESULT = 3
 
 
 class _Parser(argparse.ArgumentParser):
@@ -55,21 +61,37 @@ def pose_command(options: argparse.Namespace) -> int:
         variance=_variance(options.sigma_a, options.sigma_b),
     )
     results = solve(read_frames(options.file), options.backend, config=config, rtl_dir=options.rtl)
-    if options.json:
+    return _print_results(results, pose_table, options.json)
+
+
+def rates_command(options: argparse.Namespace) -> int:
+    """Rates of a file's frames, as a table or as JSON. Prints only when all is solved."""
+    results = solve_rates(
+        read_rate_frames(options.file),
+        options.backend,
+        f0=options.f0,
+        dt=options.dt,
+        sigma=options.sigma,
+        rtl_dir=options.rtl,
+    )
+    return _print_results(results, rates_table, options.json)
+
+
+def _print_results(
+    results: Sequence[AnyResult], table: Callable[[Sequence[AnyResult]], str], as_json: bool
+) -> int:
+    """The results on standard output, and the exit code they mean."""
+    if as_json:
         text = json.dumps({"frames": [result.to_json() for result in results]}, allow_nan=False)
     else:
-        text = pose_table(results)
+        text = table(results)
     print(text)
-    return EXIT_NO_POSE if any(result.failed for result in results) else 0
+    return EXIT_NO_RESULT if any(result.failed for result in results) else 0
 
 
 def landing_command(options: argparse.Namespace) -> int:
     """The landing of the paper, sensors to report."""
-    try:
-        run_landing = importlib.import_module("relnav.landing").run_landing
-    except ImportError as error:
-        raise BackendError(f"the landing cannot be loaded: {error}") from None
-    code: int = run_landing(
+    code: int = _part("landing").run_landing(
         terrain=options.terrain,
         frames=options.frames,
         backend=options.backend,
@@ -78,6 +100,26 @@ def landing_command(options: argparse.Namespace) -> int:
         rtl=options.rtl,
     )
     return code
+
+
+def proximity_command(options: argparse.Namespace) -> int:
+    """The manoeuvre of the iVisNav paper, beams to report."""
+    code: int = _part("proximity").run_proximity(
+        frames=options.frames,
+        backend=options.backend,
+        out=options.out,
+        camera=options.camera,
+        rtl=options.rtl,
+    )
+    return code
+
+
+def _part(name: str) -> Any:
+    """A command's module, with all it needs, loaded when it is used."""
+    try:
+        return importlib.import_module(f"relnav.{name}")
+    except ImportError as error:
+        raise BackendError(f"the {name} cannot be loaded: {error}") from None
 
 
 def _variance(sigma_a: float | None, sigma_b: float | None) -> float:
@@ -91,7 +133,10 @@ def _variance(sigma_a: float | None, sigma_b: float | None) -> float:
 
 
 def _parser() -> argparse.ArgumentParser:
-    parser = _Parser(prog="relnav", description="Relative navigation: poses from matched 3-D points.")
+    parser = _Parser(
+        prog="relnav",
+        description="Relative navigation: poses from matched 3-D points, rates from laser phases.",
+    )
     parser.add_argument("--version", action="version", version=f"relnav {__version__}")
     commands = parser.add_subparsers(required=True, metavar="COMMAND")
 
@@ -102,20 +147,32 @@ def _parser() -> argparse.ArgumentParser:
         metavar="FILE",
         help="CSV with header ax,ay,az,bx,by,bz, or .npz with a, b (n,3); both with optional w, frame",
     )
-    pose.add_argument(
-        "--backend", choices=BACKENDS, default="fixed", help="default: %(default)s, the bit-exact model"
-    )
-    pose.add_argument(
-        "--json", action="store_true", help="one JSON object on standard output instead of a table"
-    )
+    _add_backend(pose)
     pose.add_argument("--sigma-a", type=_sigma, metavar="S", help="standard deviation of a at unit weight")
     pose.add_argument("--sigma-b", type=_sigma, metavar="S", help="standard deviation of b at unit weight")
-    pose.add_argument("--rtl", type=Path, metavar="DIR", help="simulate this copy of the RTL")
     pose.add_argument(
         "--forbid-turns", action="store_true", help="solve the points as they are, never turned first"
     )
     pose.add_argument("--reapply", action="store_true", help="apply Eq. 25 once more: Wahba's optimum")
     pose.set_defaults(run=pose_command)
+
+    rates = commands.add_parser(
+        "rates", help="velocity and angular velocity from phase differences in a file"
+    )
+    rates.add_argument(
+        "file",
+        type=Path,
+        metavar="FILE",
+        help="CSV with header rx,ry,rz,px,py,pz,dphi, or .npz with r, p (n,3), dphi (n,); "
+        "both with optional w, frame; .npz also with sigma (n,n)",
+    )
+    rates.add_argument("--f0", type=float, required=True, metavar="HZ", help="modulation frequency, Hz")
+    rates.add_argument("--dt", type=float, required=True, metavar="S", help="interval of dphi, s")
+    _add_backend(rates)
+    rates.add_argument(
+        "--sigma", type=_sigma, metavar="S", help="standard deviation of dphi at unit weight, rad"
+    )
+    rates.set_defaults(run=rates_command)
 
     landing = commands.add_parser("landing", help="the paper's landing: terrain, sensors, RTL, report")
     landing.add_argument(
@@ -134,7 +191,30 @@ def _parser() -> argparse.ArgumentParser:
     )
     landing.add_argument("--rtl", type=Path, metavar="DIR", help="simulate this copy of the RTL")
     landing.set_defaults(run=landing_command)
+
+    proximity = commands.add_parser("proximity", help="the iVisNav paper's manoeuvre: beams, RTL, report")
+    proximity.add_argument(
+        "--frames", type=_count, default=100, metavar="N", help="intervals, default: %(default)s"
+    )
+    proximity.add_argument("--backend", choices=BACKENDS, help="default: a simulator that is installed")
+    proximity.add_argument("--out", type=Path, metavar="DIR", help="where the report goes")
+    proximity.add_argument(
+        "--camera", action="store_true", help="projections from the pose of the OLTAE core, besides the true"
+    )
+    proximity.add_argument("--rtl", type=Path, metavar="DIR", help="simulate this copy of the RTL")
+    proximity.set_defaults(run=proximity_command)
     return parser
+
+
+def _add_backend(command: argparse.ArgumentParser) -> None:
+    """The options of every command that solves a file's frames."""
+    command.add_argument(
+        "--backend", choices=BACKENDS, default="fixed", help="default: %(default)s, the bit-exact model"
+    )
+    command.add_argument(
+        "--json", action="store_true", help="one JSON object on standard output instead of a table"
+    )
+    command.add_argument("--rtl", type=Path, metavar="DIR", help="simulate this copy of the RTL")
 
 
 def _sigma(text: str) -> float:

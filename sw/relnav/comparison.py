@@ -5,6 +5,7 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import dataclass, fields
+from typing import TypeVar
 
 import numpy as np
 from numpy.typing import NDArray
@@ -13,11 +14,13 @@ from . import exact, golden, paper_fixed
 from .attitude import cayley
 from .exact import ExactPose
 from .frames import Frame
+from .ivisnav.result import RatesResult
 from .quantise import quantise
 from .result import PoseResult
 from .sensor.flight import Flight
 
 Array = NDArray[np.float64]
+AnyResult = TypeVar("AnyResult", PoseResult, RatesResult)
 
 # q of the core is binary32 (half an ulp is 6e-8); its 35-bit mantissas add 5 to 8 kappa 2^-35, as measured.
 BOUND = 1e-7
@@ -149,9 +152,9 @@ def _paper_run(label: str, frames: Sequence[Frame], alpha: float) -> PaperRun:
     return PaperRun(label, alpha, q, t)
 
 
-def differing_fields(core: PoseResult, model: PoseResult) -> list[str]:
+def differing_fields(core: AnyResult, model: AnyResult) -> list[str]:
     """Names of the fields that are not the same to the last bit (cycles apart: a model has no clock)."""
-    names = [field.name for field in fields(PoseResult) if field.name not in ("frame", "cycles")]
+    names = [field.name for field in fields(core) if field.name not in ("frame", "cycles")]
     return [name for name in names if not _same(getattr(core, name), getattr(model, name))]
 
 

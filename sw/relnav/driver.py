@@ -1,17 +1,22 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Driver of the OLTAE core, for any bus that reads and writes words: the simulator's, /dev/mem's, PYNQ's."""
+"""Drivers of the cores, for any bus that reads and writes words: the simulator's, /dev/mem's, PYNQ's.
+
+`CoreDriver` is what every core has; `OltaeDriver` and relnav.ivisnav.driver.IvisnavDriver add their frames.
+"""
 
 from __future__ import annotations
 
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass
-from typing import Literal, Protocol
+from enum import IntEnum
+from typing import Any, ClassVar, Generic, Literal, Protocol, TypeVar
 
 import numpy as np
+import numpy.typing as npt
 
 from .errors import BackendError, InputError
 from .model.raw import RESULT_WORDS, CoreConfig, RawResult, results_from_words
-from .quantise import QuantisedFrame
+from .quantise import IntArray, QuantisedFrame
 from .registermap import Register
 from .registers import Oltae
 from .result import FAILURES
@@ -19,8 +24,6 @@ from .result import FAILURES
 Feed = Literal["stream", "registers"]
 
 POLLS = 10_000  # of STATUS, before a frame counts as lost; a solved frame takes about 40 on the slowest bus
-ALL_FLAGS = Oltae.FLAGS.encode(**dict.fromkeys(Oltae.FLAGS.FIELDS, 1))
-FAILURE_BITS = Oltae.FLAGS.encode(**dict.fromkeys(FAILURES, 1))
 
 
 class Bus(Protocol):
@@ -40,50 +43,43 @@ class Bus(Protocol):
 
 
 @dataclass(frozen=True)
-class Build:
-    """The BUILD register: what this core was built with."""
-
-    weighted: bool
-    covariance: bool
-    reapply: bool
-    mantissa: int
-
-
-@dataclass(frozen=True)
-class Status:
+class CoreStatus:
     """The STATUS register. frame: frames completed since the reset, modulo 2^16."""
 
-    state: Oltae.State
+    state: IntEnum
     busy: bool
-    q_ready: bool
-    pose_ready: bool
     all_ready: bool
     push_ready: bool
     frame: int
 
 
-def beats_of(frame: QuantisedFrame) -> list[int]:
-    """The 64-bit beats of a frame: a point is {b_k, a_k} for k = x, y, z, with its weight's beat in front."""
-    components = np.stack((frame.a, frame.b), axis=2)  # (n, 3, 2)
-    halves = components.astype(np.int64) & 0xFFFFFFFF
-    words = (halves[:, :, 1].astype(np.uint64) << np.uint64(32)) | halves[:, :, 0].astype(np.uint64)
-    if frame.w is not None:
-        words = np.hstack((frame.w.astype(np.uint64)[:, None] & np.uint64(0xFFFF), words))
-    beats: list[int] = words.ravel().tolist()
-    return beats
+StatusT = TypeVar("StatusT", bound=CoreStatus)
 
 
-class OltaeDriver:
-    """One OLTAE core behind a bus. Not for two threads at once; nobody else may write the core's registers.
+def join(low: IntArray, high: IntArray) -> npt.NDArray[np.uint64]:
+    """64-bit beats of two arrays of the same shape, of which the low 32 bits count."""
+    halves = [(part.astype(np.int64) & 0xFFFFFFFF).astype(np.uint64) for part in (low, high)]
+    return (halves[1] << np.uint64(32)) | halves[0]
 
-    `solve` does all of it; the steps are there for those who want something else in between.
+
+class CoreDriver(Generic[StatusT]):
+    """One core behind a bus. Not for two threads at once; nobody else may write the core's registers.
+
     idle: called between two looks at an unfinished frame; it may sleep or block until the interrupt.
     """
+
+    MAP: ClassVar[Any]
+    """The core's class of relnav.registers."""
+    NAME: ClassVar[str]
+    ROWS: ClassVar[str]
+    """What a frame consists of, in the plural."""
+    STATUS: type[StatusT]
+    FAILURE_BITS: ClassVar[int]
+    """Flags that end a frame without a result."""
 
     def __init__(self, bus: Bus, idle: Callable[[], None] = lambda: None) -> None:
         self.bus = bus
         self.idle = idle
-        self._covariance = True
 
     # ------------------------------------------------------------------ registers
 
@@ -97,34 +93,162 @@ class OltaeDriver:
 
     # ------------------------------------------------------------------ control
 
-    def identify(self) -> Build:
-        """Check that this is an OLTAE core of our version; raises BackendError that says what was found."""
-        found = self.read(Oltae.ID)
-        if found != Oltae.ID.RESET:
-            raise BackendError(f"no OLTAE core here: ID reads 0x{found:08x}, not 0x{Oltae.ID.RESET:08x}")
-        version, ours = self.read(Oltae.VERSION), Oltae.VERSION.RESET
+    def check_identity(self) -> int:
+        """The BUILD word; raises BackendError that says what was found for another core or version."""
+        found, wanted = self.read(self.MAP.ID), self.MAP.ID.RESET
+        if found != wanted:
+            raise BackendError(f"no {self.NAME} core here: ID reads 0x{found:08x}, not 0x{wanted:08x}")
+        version, ours = self.read(self.MAP.VERSION), self.MAP.VERSION.RESET
         if version >> 8 != ours >> 8:  # patches keep the registers
             raise BackendError(
-                f"the core is version {_version(version)}, this driver is for {_version(ours)}: "
+                f"the core is version {self._version(version)}, this driver is for {self._version(ours)}: "
                 "build the one or install the other"
             )
-        build = Oltae.BUILD.decode(self.read(Oltae.BUILD))
+        return self.read(self.MAP.BUILD)
+
+    def _version(self, word: int) -> str:
+        fields = self.MAP.VERSION.decode(word)
+        return f"{fields['MAJOR']}.{fields['MINOR']}.{fields['PATCH']}"
+
+    def status(self) -> StatusT:
+        """The STATUS register."""
+        fields = {
+            name.lower(): value for name, value in self.MAP.STATUS.decode(self.read(self.MAP.STATUS)).items()
+        }
+        state, frame = self.MAP.State(fields.pop("state")), fields.pop("frame")
+        flags: dict[str, Any] = {name: bool(value) for name, value in fields.items()}
+        return self.STATUS(state=state, frame=frame, **flags)
+
+    def check_unlocked(self) -> None:
+        """Raises BackendError while a frame is open."""
+        if self.status().busy:
+            raise BackendError("the core is busy: its configuration is locked")
+
+    def flags(self) -> int:
+        """The sticky FLAGS."""
+        return self.read(self.MAP.FLAGS)
+
+    def clear_flags(self, bits: int | None = None) -> None:
+        """Clear these sticky FLAGS, all by default."""
+        every = sum(field.mask for field in self.MAP.FLAGS.FIELDS.values())
+        self.write(self.MAP.FLAGS, every if bits is None else bits)
+
+    def enable_interrupts(self, *, done: bool = False, error: bool = False) -> None:
+        """Which events raise the irq line: a completed frame, a flag."""
+        self.write(self.MAP.IRQ_ENABLE, self.MAP.IRQ_ENABLE.encode(DONE=done, ERROR=error))
+
+    def clear_interrupts(self) -> tuple[bool, bool]:
+        """(done, error) that were pending; they are cleared, and so the irq line falls."""
+        word = self.read(self.MAP.IRQ_STATUS)
+        self.write(self.MAP.IRQ_STATUS, word)
+        return bool(self.MAP.IRQ_STATUS.DONE.get(word)), bool(self.MAP.IRQ_STATUS.ERROR.get(word))
+
+    def acknowledge(self) -> None:
+        """DONE back to IDLE. Not needed before the next frame."""
+        self.write(self.MAP.CONTROL, self.MAP.CONTROL.encode(ACKNOWLEDGE=1))
+
+    def soft_reset(self) -> None:
+        """Drop the frame at hand; configuration, flags and results stay. Stop the stream's sender first."""
+        self.write(self.MAP.CONTROL, self.MAP.CONTROL.encode(SOFT_RESET=1))
+
+    # ------------------------------------------------------------------ frames
+
+    def feed(self, beats: Sequence[int], feed: Feed = "stream") -> int:
+        """Give the core one frame; returns the ticket that `wait` takes.
+
+        feed: "stream", or "registers", which needs no DMA. Clears the sticky FLAGS.
+        Raises InputError for a frame without beats, which nothing could end; BackendError when it cannot be
+        pushed.
+        """
+        if not beats:
+            raise InputError(f"a frame without {self.ROWS} cannot be given to the core")
+        self.clear_flags()
+        status = self.status()
+        if feed == "stream":
+            self.bus.stream(beats)
+            return status.frame
+        if not status.push_ready:
+            raise BackendError("the core takes no push: it is busy or a stream's frame is open")
+        for number, beat in enumerate(beats, 1):
+            # PUSH_READY need not be read in between: an open frame takes a beat before the next write comes.
+            self.push(beat, last=number == len(beats))
+        return status.frame
+
+    def push(self, beat: int, *, last: bool = False) -> None:
+        """One beat by the registers."""
+        self.write(self.MAP.DATA_A, beat & 0xFFFFFFFF)
+        self.write(self.MAP.DATA_B, beat >> 32)
+        self.write(self.MAP.PUSH, self.MAP.PUSH.encode(LAST=last))
+
+    def wait(self, ticket: int, polls: int = POLLS) -> bool:
+        """Wait for the frame of this ticket; True when it was solved, False when it failed (see FRAME_FLAGS).
+
+        What counts is the number of completed frames and the FLAGS that `feed` cleared: neither can be the
+        frame's before, however late the core takes the first beat. Raises BackendError after `polls`.
+        """
+        for _ in range(polls):
+            flags = self.flags()  # before STATUS: TOO_LONG rises while the frame is still swallowed
+            status = self.status()
+            if status.frame != ticket:
+                return True
+            if flags & self.FAILURE_BITS and not status.busy:
+                return False
+            self.idle()
+        raise BackendError(f"no result after {polls} looks at the core: its state is {status.state.name}")
+
+    def result_words(self, first: type[Register], count: int) -> list[int]:
+        """The result registers, from the first on."""
+        return [self.bus.read(first.ADDRESS + 4 * index) for index in range(count)]
+
+
+# ---------------------------------------------------------------------------------------------------- OLTAE
+
+
+@dataclass(frozen=True)
+class Build:
+    """The BUILD register: what this core was built with."""
+
+    weighted: bool
+    covariance: bool
+    reapply: bool
+    mantissa: int
+
+
+@dataclass(frozen=True)
+class Status(CoreStatus):
+    """STATUS of OLTAE."""
+
+    q_ready: bool
+    pose_ready: bool
+
+
+def beats_of(frame: QuantisedFrame) -> list[int]:
+    """The 64-bit beats of a frame: a point is {b_k, a_k} for k = x, y, z, with its weight's beat in front."""
+    words = join(frame.a, frame.b)
+    if frame.w is not None:
+        words = np.hstack((frame.w.astype(np.uint64)[:, None] & np.uint64(0xFFFF), words))
+    beats: list[int] = words.ravel().tolist()
+    return beats
+
+
+class OltaeDriver(CoreDriver[Status]):
+    """One OLTAE core. `solve` does all of it; the steps are there for who wants something in between."""
+
+    MAP = Oltae
+    NAME = "OLTAE"
+    ROWS = "points"
+    STATUS = Status
+    FAILURE_BITS = Oltae.FLAGS.encode(**dict.fromkeys(FAILURES, 1))
+
+    def __init__(self, bus: Bus, idle: Callable[[], None] = lambda: None) -> None:
+        super().__init__(bus, idle)
+        self._covariance = True
+
+    def identify(self) -> Build:
+        """Check that this is an OLTAE core of our version; raises BackendError that says what was found."""
+        build = Oltae.BUILD.decode(self.check_identity())
         return Build(
             bool(build["WEIGHTED"]), bool(build["COVARIANCE"]), bool(build["REAPPLY"]), build["MANTISSA"]
-        )
-
-    def status(self) -> Status:
-        """The STATUS register."""
-        word = self.read(Oltae.STATUS)
-        bits = Oltae.STATUS
-        return Status(
-            Oltae.State(bits.STATE.get(word)),
-            busy=bool(bits.BUSY.get(word)),
-            q_ready=bool(bits.Q_READY.get(word)),
-            pose_ready=bool(bits.POSE_READY.get(word)),
-            all_ready=bool(bits.ALL_READY.get(word)),
-            push_ready=bool(bits.PUSH_READY.get(word)),
-            frame=bits.FRAME.get(word),
         )
 
     def configure(
@@ -142,8 +266,7 @@ class OltaeDriver:
             REAPPLY=config.reapply,
             COVARIANCE=config.covariance,
         )
-        if self.status().busy:
-            raise BackendError("the core is busy: its configuration is locked")
+        self.check_unlocked()
         self.write(Oltae.CONFIG, word)
         kept = self.read(Oltae.CONFIG)  # a bit that is not built reads as 0
         if weighted and not Oltae.CONFIG.WEIGHTED.get(kept):
@@ -152,76 +275,9 @@ class OltaeDriver:
         self.write(Oltae.FRAC, Oltae.FRAC.encode(FRAC=frac))
         self.write(Oltae.VARIANCE, variance)
 
-    def flags(self) -> int:
-        """The sticky FLAGS."""
-        return self.read(Oltae.FLAGS)
-
-    def clear_flags(self, bits: int = ALL_FLAGS) -> None:
-        """Clear these sticky FLAGS, all by default."""
-        self.write(Oltae.FLAGS, bits)
-
-    def enable_interrupts(self, *, done: bool = False, error: bool = False) -> None:
-        """Which events raise the irq line: a completed frame, a flag."""
-        self.write(Oltae.IRQ_ENABLE, Oltae.IRQ_ENABLE.encode(DONE=done, ERROR=error))
-
-    def clear_interrupts(self) -> tuple[bool, bool]:
-        """(done, error) that were pending; they are cleared, and so the irq line falls."""
-        word = self.read(Oltae.IRQ_STATUS)
-        self.write(Oltae.IRQ_STATUS, word)
-        return bool(Oltae.IRQ_STATUS.DONE.get(word)), bool(Oltae.IRQ_STATUS.ERROR.get(word))
-
-    def acknowledge(self) -> None:
-        """DONE back to IDLE. Not needed before the next frame."""
-        self.write(Oltae.CONTROL, Oltae.CONTROL.encode(ACKNOWLEDGE=1))
-
-    def soft_reset(self) -> None:
-        """Drop the frame at hand; configuration, flags and results stay. Stop the stream's sender first."""
-        self.write(Oltae.CONTROL, Oltae.CONTROL.encode(SOFT_RESET=1))
-
-    # ------------------------------------------------------------------ frames
-
-    def feed(self, beats: Sequence[int], feed: Feed = "stream") -> int:
-        """Give the core one frame; returns the ticket that `wait` takes.
-
-        beats: of `beats_of`. feed: "stream", or "registers", which needs no DMA. Clears the sticky FLAGS.
-        Raises InputError for a frame without beats, which nothing could end; BackendError when it cannot be
-        pushed.
-        """
-        if not beats:
-            raise InputError("a frame without points cannot be given to the core")
-        self.clear_flags()
-        status = self.status()
-        if feed == "stream":
-            self.bus.stream(beats)
-            return status.frame
-        if not status.push_ready:
-            raise BackendError("the core takes no push: it is busy or a stream's frame is open")
-        for number, beat in enumerate(beats, 1):
-            # PUSH_READY need not be read in between: an open frame takes a beat before the next write comes.
-            self.write(Oltae.DATA_A, beat & 0xFFFFFFFF)
-            self.write(Oltae.DATA_B, beat >> 32)
-            self.write(Oltae.PUSH, Oltae.PUSH.encode(LAST=number == len(beats)))
-        return status.frame
-
-    def wait(self, ticket: int, polls: int = POLLS) -> bool:
-        """Wait for the frame of this ticket; True when it was solved, False when it failed (see FRAME_FLAGS).
-
-        What counts is the number of completed frames and the FLAGS that `feed` cleared: neither can be the
-        frame's before, however late the core takes the first beat. Raises BackendError after `polls`.
-        """
-        for _ in range(polls):
-            flags = self.flags()  # before STATUS: TOO_LONG rises while the frame is still swallowed
-            status = self.status()
-            if status.frame != ticket:
-                return True
-            if flags & FAILURE_BITS and not status.busy:
-                return False
-            self.idle()
-        raise BackendError(f"no result after {polls} looks at the core: its state is {status.state.name}")
-
     def result(self) -> RawResult:
         """The registers of the frame that was solved last, with its flags and cycles."""
-        words = [self.bus.read(Oltae.Q.ADDRESS + 4 * index) for index in range(RESULT_WORDS)]
+        words = self.result_words(Oltae.Q, RESULT_WORDS)
         return RawResult(
             points=self.read(Oltae.POINTS),
             weight=self.read(Oltae.WEIGHT),
@@ -251,8 +307,3 @@ class OltaeDriver:
         if self.wait(self.feed(beats_of(frame), feed), polls):
             return self.result()
         return RawResult(flags=self.read(Oltae.FRAME_FLAGS))
-
-
-def _version(word: int) -> str:
-    fields = Oltae.VERSION.decode(word)
-    return f"{fields['MAJOR']}.{fields['MINOR']}.{fields['PATCH']}"

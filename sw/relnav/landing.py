@@ -9,14 +9,16 @@ from pathlib import Path
 
 from tqdm import tqdm
 
-from .backends import SIMULATORS, solve
+from .backends import ROOT, SIMULATORS, installed_simulator, solve
 from .comparison import Solutions, exact_poses, paper_runs
-from .errors import BackendError, InputError
+from .errors import BackendError
 from .frames import Frame
 from .model.raw import CoreConfig
 from .report import FIGURES, write_report
+from .report.files import make_folder, progress, refuse_file
+from .report.key_table import key_table
 from .report.page import solver_name, verdict
-from .report.summary import key_table, passed
+from .report.summary import passed
 from .report.timing import time_solvers
 from .result import PoseResult
 from .sensor.flight import Flight, Simulator
@@ -24,7 +26,6 @@ from .sensor.terrain import load_terrain
 
 Solver = Callable[[Sequence[Frame], str, CoreConfig, Path | None], list[PoseResult]]
 
-ROOT = Path(__file__).resolve().parents[2]
 WAVES = ROOT / "build" / "waves"
 TRACED = 2  # frames in the waveform, back to back
 AREA = ROOT / "syn" / "results.json"
@@ -58,23 +59,13 @@ def run_landing(
         InputError, BackendError: one line; nothing has been written.
     """
     out = Path("out") if out is None else out
-    backend = backend or _installed_simulator()
+    backend = backend or installed_simulator()
     solver = solver or _solve
-    if out.exists() and not out.is_dir():
-        raise InputError(f"{out}: is a file; the report needs a folder")
+    refuse_file(out)
     simulator = Simulator(load_terrain(terrain), frames, images, seed)
-    try:  # before the flight, not after it
-        out.mkdir(parents=True, exist_ok=True)
-    except OSError as error:
-        raise InputError(f"{out}: no folder for the report: {error.strerror}") from None
+    make_folder(out)  # before the flight, not after it
     kinds = list(dict.fromkeys([backend, "fixed", "double"]))
-    with tqdm(
-        total=frames + len(kinds) + 3 + FIGURES,
-        disable=quiet,
-        file=sys.stderr,
-        bar_format="{desc:<28} {percentage:3.0f}% |{bar:30}| {elapsed}",
-        mininterval=0.1 if sys.stderr.isatty() else 5.0,  # a log is not a screen
-    ) as bar:
+    with progress(frames + len(kinds) + 3 + FIGURES, quiet) as bar:
         flight = _fly(simulator, bar)
         solved = _solved(flight, backend, kinds, solver, rtl, bar)
         bar.set_description_str("timing software", refresh=False)
@@ -139,14 +130,3 @@ def _waveform() -> Path:
     """The last waveform of the top: FST, or VCD where a simulator could not write FST."""
     paths = [WAVES / f"oltae_top.{kind}" for kind in ("fst", "vcd")]
     return max(filter(Path.is_file, paths), key=lambda path: path.stat().st_mtime, default=paths[0])
-
-
-def _installed_simulator() -> str:
-    """Verilator, which is quick, else Icarus."""
-    if not (ROOT / "sim" / "runner.py").is_file():  # the package without its checkout
-        return "fixed"
-    if str(ROOT) not in sys.path:
-        sys.path.append(str(ROOT))
-    from sim.runner import missing
-
-    return next((name for name in ("verilator", "icarus") if not missing(name)), "fixed")

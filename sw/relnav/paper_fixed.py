@@ -38,13 +38,14 @@ class PaperResult:
     beta: float
 
 
-class _Words:
+class Words:
     """Q15.16 words as Python integers; remembers whether one had to be saturated."""
 
     def __init__(self) -> None:
         self.overflow = False
 
     def hold(self, value: int) -> int:
+        """value, saturated to 32 bits."""
         held = min(max(value, SMALLEST), LARGEST)
         self.overflow |= held != value
         return held
@@ -61,22 +62,26 @@ class _Words:
         return np.asarray(fixed.get_val(), dtype=np.float64)
 
     def product(self, x: int, y: int) -> int:
+        """x y, truncated."""
         return self.hold(x * y >> FRACTION)
 
     def difference_of_products(self, x: int, y: int, u: int, v: int) -> int:
+        """x y - u v, each product truncated."""
         return self.hold(self.product(x, y) - self.product(u, v))
 
     def quotient(self, x: int, y: int) -> int:
+        """x / y, truncated towards 0."""
         magnitude = (abs(x) << FRACTION) // abs(y)
         return self.hold(magnitude if (x < 0) == (y < 0) else -magnitude)
 
     def total(self, terms: IntArray) -> int:
+        """The sum, saturated at its end."""
         return self.hold(int(terms.sum()))
 
 
 def solve(a: FloatArray, b: FloatArray, w: FloatArray | None, alpha: float, beta: float) -> PaperResult:
     """Eq. 28 in Q15.16 on alpha s and beta y, then Eq. 31. a, b (n, 3), w (n,) or None."""
-    words = _Words()
+    words = Words()
     weights = np.ones(len(a)) if w is None else w / w.max()
     a_bar, b_bar = centroids(a, b, weights)
     sums, differences = sums_and_differences(centre(a, a_bar), centre(b, b_bar))

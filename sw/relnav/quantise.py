@@ -3,7 +3,9 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from dataclasses import dataclass
+from typing import Protocol
 
 import numpy as np
 import numpy.typing as npt
@@ -17,6 +19,17 @@ FRAC_MIN, FRAC_MAX = -64, 95  # the FRAC register's range
 INPUT_MIN, INPUT_MAX = -(1 << 31), (1 << 31) - 1
 WEIGHT_MAX = (1 << 16) - 1
 LEAST_BITS = 24  # below binary32's own precision the largest value would be a silent approximation
+
+
+class Weighted(Protocol):
+    """A frame of any core: weights (n,) or None, and the error that names a row."""
+
+    @property
+    def w(self) -> FloatArray | None:
+        """Weights >= 0."""
+
+    def error(self, point: int, reason: str) -> Exception:
+        """The error for a row (0-based)."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -68,6 +81,14 @@ def choose_frac(frame: Frame) -> int:
         return 0
     low = float(min(frame.a.min(), frame.b.min()))
     high = float(max(frame.a.max(), frame.b.max()))
+    return finest_frac(low, high, lambda reason: _extreme(frame, reason))
+
+
+def finest_frac(low: float, high: float, refuse: Callable[[str], Exception]) -> int:
+    """The largest binary point, -64..95, at which low to high, rounded, fit 32 bits; 0 where both are 0.
+
+    Raises what refuse makes of the reason, a phrase about the largest value, where there is none.
+    """
     largest = max(-low, high)
     if largest == 0.0:
         return 0
@@ -79,15 +100,15 @@ def choose_frac(frame: Frame) -> int:
     ):
         frac -= 1
     if frac < FRAC_MIN:
-        raise _extreme(frame, "too large: no binary point from -64 to 95 fits it in 32 bits")
+        raise refuse("too large: no binary point from -64 to 95 fits it in 32 bits")
     if np.ldexp(largest, frac) < 2.0 ** (LEAST_BITS - 1):
-        raise _extreme(
-            frame, f"the frame's largest value, too small: binary point 95 leaves it under {LEAST_BITS} bits"
+        raise refuse(
+            f"the frame's largest value, too small: binary point 95 leaves it under {LEAST_BITS} bits"
         )
     return frac
 
 
-def quantise_weights(frame: Frame) -> tuple[IntArray | None, float]:
+def quantise_weights(frame: Weighted) -> tuple[IntArray | None, float]:
     """(integer weights or None, weight_scale).
 
     Integers up to 65535 keep scale 1. Other weights take the largest power of two that fits when it makes

@@ -10,7 +10,12 @@ For each ``registers/<core>.rdl`` (one address map, called like the file):
     sw/c/<core>_registers.h             C99: a volatile struct whose read-only members are const
     docs/registers-<core>.md            the register page
 
-and for all of them together ``sw/relnav/registers.py``. So a further core only adds its file to registers/.
+and for all of them together
+
+    sw/relnav/registers.py
+    rtl/include/common_registers.vh     what is the same in every core, for the RTL that they share
+
+So a further core only adds its file to registers/.
 
 Needs systemrdl-compiler. Our own emitters: peakrdl's C header names a shared register
 type by a hash and knows no const, and its register block is SystemVerilog.
@@ -201,12 +206,37 @@ def _notice(core: str) -> str:
 
 def verilog(core: CoreView) -> str:
     """The include file for the RTL: localparams and a function, no macros."""
-    lines = [
+    lines = [*_verilog_head(_notice(core.name), " is_mapped takes the word address."), *_localparams(core)]
+    lines += ["/* verilator lint_on UNUSEDPARAM */", "", "function is_mapped;"]
+    lines += [f"  input [{ADDRESS_BITS - 3}:0] word;", "  case (word)"]
+    words = [f"{ADDRESS_BITS - 2}'h{a // 4:03X}" for register in core.registers for a in register.addresses]
+    for start in range(0, len(words), 10):
+        more = start + 10 < len(words)
+        lines.append(f"    {', '.join(words[start : start + 10])}{',' if more else ': is_mapped = 1;'}")
+    lines += ["    default: is_mapped = 0;", "  endcase", "endfunction"]
+    return "\n".join(lines) + "\n"
+
+
+def common_verilog(cores: Sequence[CoreView]) -> str:
+    """The include file for RTL that serves every core: the localparams that all of them have alike."""
+    first, *others = (_localparams(core) for core in cores)
+    same = [line for line in first if all(line in lines for lines in others)]
+    head = _verilog_head(_notice("*"), " what every core has alike.")
+    return "\n".join([*head, *same, "/* verilator lint_on UNUSEDPARAM */"]) + "\n"
+
+
+def _verilog_head(notice: str, more: str) -> list[str]:
+    return [
         "// SPDX-License-Identifier: Apache-2.0",
-        f"// {_notice(core.name)}",
-        "// To be included inside a module. Byte addresses; is_mapped takes the word address.",
+        f"// {notice}",
+        f"// To be included inside a module. Byte addresses;{more}",
         "/* verilator lint_off UNUSEDPARAM */",
     ]
+
+
+def _localparams(core: CoreView) -> list[str]:
+    """One line for each address, count, reset word, place of a field and value of an enumeration."""
+    lines = []
     for register in core.registers:
         address = f"{ADDRESS_BITS}'h{register.address:03X}"
         lines.append(f"localparam [{ADDRESS_BITS - 1}:0] {register.name}_ADDRESS = {address};")
@@ -224,14 +254,7 @@ def verilog(core: CoreView) -> str:
         for choice in of.choices:
             size = f"[{of.width - 1}:0] "
             lines.append(f"localparam {size}{kind.upper()}_{choice.name} = {of.width}'d{choice.value};")
-    lines += ["/* verilator lint_on UNUSEDPARAM */", "", "function is_mapped;"]
-    lines += [f"  input [{ADDRESS_BITS - 3}:0] word;", "  case (word)"]
-    words = [f"{ADDRESS_BITS - 2}'h{a // 4:03X}" for register in core.registers for a in register.addresses]
-    for start in range(0, len(words), 10):
-        more = start + 10 < len(words)
-        lines.append(f"    {', '.join(words[start : start + 10])}{',' if more else ': is_mapped = 1;'}")
-    lines += ["    default: is_mapped = 0;", "  endcase", "endfunction"]
-    return "\n".join(lines) + "\n"
+    return lines
 
 
 def c_header(core: CoreView) -> str:
@@ -384,7 +407,10 @@ def outputs(root: Path = ROOT, version: str = __version__) -> dict[Path, str]:
     if not files:
         raise DescriptionError(f"no description in {root / 'registers'}")
     cores = [read(file, version) for file in files]
-    made = {Path("sw/relnav/registers.py"): python(cores)}
+    made = {
+        Path("sw/relnav/registers.py"): python(cores),
+        Path("rtl/include/common_registers.vh"): common_verilog(cores),
+    }
     for core in cores:
         made[Path(f"rtl/include/{core.name}_registers.vh")] = verilog(core)
         made[Path(f"sw/c/{core.name}_registers.h")] = c_header(core)

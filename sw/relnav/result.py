@@ -77,21 +77,21 @@ class PoseResult:
         return {
             "frame": self.frame,
             "n": self.n,
-            "q": _plain(self.q),
-            "quaternion": _plain(self.quaternion),
-            "R": _plain(self.R),
-            "t": _plain(self.t),
-            "q_cov": _plain(self.q_cov),
-            "t_cov": _plain(self.t_cov),
-            "rss": _plain(self.rss),
+            "q": plain(self.q),
+            "quaternion": plain(self.quaternion),
+            "R": plain(self.R),
+            "t": plain(self.t),
+            "q_cov": plain(self.q_cov),
+            "t_cov": plain(self.t_cov),
+            "rss": plain(self.rss),
             "turn": self.turn,
             "flags": list(self.flags),
             "cycles": self.cycles,
         }
 
 
-def _plain(value: FloatArray | float | None) -> object:
-    """Lists and floats for JSON, which has no infinity."""
+def plain(value: FloatArray | float | None) -> object:
+    """Lists and floats for JSON, which has no infinity; None for what is not finite."""
     if value is None or not np.all(np.isfinite(value)):
         return None
     return np.asarray(value).tolist()

@@ -7,6 +7,7 @@ the WEIGHTED build is wider.
 
 from __future__ import annotations
 
+import struct
 import sys
 from dataclasses import dataclass
 from pathlib import Path
@@ -59,6 +60,16 @@ RECIPROCAL_NUMERATOR = 61  # 2^61 / |mantissa|: 27 bits behind the point, 9 radi
 RANK_BITS = 14
 ILL_BITS = 22
 
+# iVisNav's rates
+RESIDUAL_UNIT = 56  # places behind the point of the exact residual's sums, in units of the moments
+RATE_BITS = 26  # the residual takes rates below 2^26, in the scaled system
+PIVOT_BITS = 22  # a pivot this many powers of two below its diagonal element is rounding noise
+LOGARITHM = 20  # a binary32 word without its sign and these low bits is its logarithm in eighths of an octave
+# Eighths of an octave: the second refinement leaves an estimated 2^-18.5 = 2.7e-6 of the rates at most
+CONVERGED = 8 * 18 + 4
+LARGEST_CONDITION = 2000.0  # of H; beyond, no rates
+CONDITION_LIMIT = int.from_bytes(struct.pack(">f", LARGEST_CONDITION**2), "big")  # its square in binary32
+
 
 @dataclass(frozen=True)
 class Word:
@@ -87,6 +98,13 @@ WORDS = (
     Word("RANK_BITS", "determinant sums below this power of two are rounding noise", RANK_BITS),
     Word("ILL_BITS", "determinant sums below this power of two are ill conditioned", ILL_BITS),
     Word("RECIPROCAL_NUMERATOR", "power of two the reciprocal divides", RECIPROCAL_NUMERATOR),
+    Word("RESIDUAL_UNIT", "places behind the point of the exact residual's sums", RESIDUAL_UNIT),
+    Word("RATE_BITS", "the residual takes scaled rates below this power of two", RATE_BITS),
+    Word("PIVOT_BITS", "pivots this many powers of two below their diagonal element are noise", PIVOT_BITS),
+    Word(
+        "CONVERGED", "octaves, in eighths, that what a refinement leaves must lie below the rates", CONVERGED
+    ),
+    Word("CONDITION_LIMIT", "largest cond(H)^2, a binary32 word", CONDITION_LIMIT),
 )
 
 HEADER = Path(__file__).resolve().parents[2] / "rtl" / "include" / "relnav_words.vh"

@@ -12,6 +12,12 @@ import random
 from collections.abc import Iterable, Sequence
 from pathlib import Path
 
+import numpy as np
+import numpy.typing as npt
+
+Rows = npt.NDArray[np.uint8]
+"""Words as rows of bytes, the most significant first: what `to_rows` makes."""
+
 
 def to_unsigned(value: int, bits: int) -> int:
     """The two's complement word of `bits` bits; refuses a value that does not fit (signed or unsigned)."""
@@ -76,3 +82,41 @@ def read_hex(file: Path) -> list[int]:
         except ValueError:
             raise ValueError(f"{file.name}: line {number}: {line!r} is not a known value") from None
     return words
+
+
+# A million words a second or more: words as rows of bytes.
+_DIGITS = np.frombuffer(b"0123456789abcdef", np.uint8)
+_VALUES = np.full(256, 255, np.uint8)
+_VALUES[_DIGITS] = np.arange(16, dtype=np.uint8)
+
+
+def to_rows(*fields: npt.NDArray[np.unsignedinteger]) -> Rows:
+    """Unsigned integers of whole bytes side by side, the first on top: (n,) each to (n, bytes in all)."""
+    columns = [field.astype(field.dtype.newbyteorder(">")).view(np.uint8) for field in fields]
+    return np.concatenate([column.reshape(len(fields[0]), -1) for column in columns], axis=1)
+
+
+def write_hex_rows(file: Path, rows: Rows, bits: int) -> None:
+    """`write_hex` for rows of bytes, of which the lowest `bits` bits are the word."""
+    text = np.empty((len(rows), 2 * rows.shape[1] + 1), np.uint8)
+    text[:, 0:-1:2] = _DIGITS[rows >> 4]
+    text[:, 1:-1:2] = _DIGITS[rows & 15]
+    text[:, -1] = ord("\n")
+    text[:, -1 - (bits + 3) // 4 :].tofile(file)
+
+
+def read_hex_rows(file: Path) -> Rows:
+    """`read_hex` for lines of one length: (lines, bytes), right-aligned."""
+    text = np.fromfile(file, np.uint8)
+    if text.size == 0:
+        return np.empty((0, 0), np.uint8)
+    lines = text.reshape(-1, int(np.argmax(text == ord("\n"))) + 1)[:, :-1]
+    values = _VALUES[lines]
+    unknown = np.flatnonzero(np.any(values > 15, axis=1))
+    if unknown.size:
+        line = lines[unknown[0]].tobytes()
+        raise ValueError(f"{file.name}: line {unknown[0] + 1}: {line!r} is not a known value")
+    if values.shape[1] % 2:
+        values = np.pad(values, ((0, 0), (1, 0)))
+    rows: Rows = np.bitwise_or(np.left_shift(values[:, 0::2], 4), values[:, 1::2])
+    return rows

@@ -4,12 +4,13 @@
 from __future__ import annotations
 
 import random
-from collections.abc import Callable
 
 import numpy as np
 from numpy.typing import NDArray
 from relnav.model.raw import CoreConfig
 from relnav.quantise import INPUT_MAX, INPUT_MIN, QuantisedFrame
+
+from tb.common.weights import random_weights
 
 Integers = NDArray[np.int64]
 FRACS = (-64, -63, -1, 0, 1, 31, 94, 95)
@@ -26,20 +27,6 @@ def random_frame(
     weighted = rng.random() < 0.5 if weights is None else weights
     frac = rng.choice(FRACS) if rng.random() < 0.5 else rng.randint(-64, 95)
     return QuantisedFrame(a, b, random_weights(rng, n) if weighted else None, frac)
-
-
-def random_weights(rng: random.Random, n: int) -> Integers:
-    """Weights 0..65535: all alike, few, extreme, or any."""
-    draws: list[Callable[[], int]] = [
-        lambda: 1,
-        lambda: 65535,
-        lambda: rng.choice([0, 1]),
-        lambda: rng.choice([0, 1, 65535]),
-        lambda: rng.randint(1, 9),
-        lambda: rng.randint(0, 65535),
-    ]
-    draw = rng.choice(draws)
-    return np.array([draw() for _ in range(n)], dtype=np.int64)
 
 
 def random_config(rng: random.Random, full: bool = True) -> CoreConfig:

@@ -10,7 +10,7 @@ import pytest
 from relnav.model.core import OltaeCore
 from relnav.model.raw import RawResult, float_to_word
 
-from bench import accuracy, limits, three_sigma
+from bench import accuracy, limits, rates, three_sigma
 from bench.clouds import FAMILIES, make_case
 from bench.measure import floats, measure
 
@@ -60,3 +60,36 @@ def test_flags_rise_where_they_should() -> None:
             row = shape["flags"][flag]
             assert row["largest_log2_ratio_with"] < bound + 0.1
             assert row["least_log2_ratio_without"] > bound - 0.1
+
+
+def test_random_rows_keep_their_bound() -> None:
+    found = rates.random_matrices(6, processes=1)
+    assert all(entry["holds"] for entry in found)
+    assert [entry["refused"] for entry in found][:3] == [0, 0, 0] and found[-1]["refused"] == 6
+    assert all(entry["explicit"] > entry["error"] for entry in found[:-1])
+
+
+def test_rates_inside_3_sigma_roughly() -> None:
+    found = rates.coverage(40, 20, processes=1)
+    for row in found:
+        assert not row["without_result"] and min(row["inside"].values()) > 0.9
+        assert all(0.6 < ratio < 1.4 for ratio in row["rms_over_sigma"].values())
+
+
+def test_a_wrong_rate_is_noticed() -> None:
+    cell = ("alternately skewed", 0.5, 2.0, False)
+    good = rates.run_rings((cell, 0, 2))
+    assert rates.cell_report(cell, good)["holds"]
+    bad = [replace(case, x=case.truth * (1 + 2e-5)) for case in good]
+    assert not rates.cell_report(cell, bad)["holds"]
+    refused = [replace(case, x=None) for case in good]
+    assert rates.cell_report(cell, refused)["refused_within"] == 2
+    assert not rates.cell_report(cell, refused)["holds"]
+    beyond = [replace(case, cond=2100.0) for case in good]
+    assert not rates.cell_report(cell, beyond)["holds"]
+
+
+def test_rss_is_right_above_its_floor(monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr(rates, "NOISES", (1e-2,))
+    (entry,) = rates.residuals(3, processes=1)
+    assert entry["frames"] == 3 and entry["error"] < 1e-6

@@ -18,7 +18,22 @@ PAGES = [
     ROOT / "rtl/README.md",
     ROOT / "tb/README.md",
 ]
-MARKERS = {"README.md": {"sim", "pose", "python", "numbers", "area", "timing"}, "docs/oltae.md": {"latency"}}
+MARKERS = {
+    "README.md": {
+        "sim",
+        "proximity",
+        "pose",
+        "rates",
+        "python",
+        "cores",
+        "numbers",
+        "ivisnav",
+        "area",
+        "timing",
+    },
+    "docs/oltae.md": {"latency"},
+    "docs/ivisnav.md": {"latency", "accuracy", "area"},
+}
 
 
 def test_rtl_readme_names_every_module_and_no_other() -> None:

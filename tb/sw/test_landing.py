@@ -18,9 +18,10 @@ from relnav.errors import InputError
 from relnav.frames import Frame
 from relnav.landing import Solver, run_landing
 from relnav.model.raw import CoreConfig
+from relnav.report.key_table import Row, read_area
 from relnav.report.page import page
 from relnav.report.style import house_style
-from relnav.report.summary import Row, key_rows, read_area, summarise
+from relnav.report.summary import key_rows, summarise
 from relnav.report.waveform import waveform_figure
 from relnav.result import PoseResult
 from relnav.sensor.flight import Flight, Simulator

@@ -60,7 +60,7 @@ def test_extremes_are_told() -> None:
 
 
 def test_format_is_q15_16() -> None:
-    words = paper_fixed._Words()
+    words = paper_fixed.Words()
     values = np.array([1.0, -1.0, 2.0**-17 * 1.01, 32767.99999, -32768.0])
     assert words.enter(values).tolist() == [65536, -65536, 1, 2**31 - 1, -(2**31)] and not words.overflow
     assert words.leave([1, -65536]).tolist() == [2.0**-16, -1.0]
@@ -71,4 +71,4 @@ def test_format_is_q15_16() -> None:
     ("x", "y", "expected"), [(3, 2, 98304), (-3, 2, -98304), (1, -3, -21845), (-1, -3, 21845)]
 )
 def test_divider_truncates(x: int, y: int, expected: int) -> None:
-    assert paper_fixed._Words().quotient(x, y) == expected
+    assert paper_fixed.Words().quotient(x, y) == expected

@@ -11,7 +11,7 @@ from pathlib import Path
 import pytest
 from relnav import __version__, regtool
 from relnav.registermap import Field, Register
-from relnav.registers import Oltae
+from relnav.registers import Ivisnav, Oltae
 
 OTHER = """
 addrmap ivisnav #(longint unsigned VERSION_WORD = 0) {
@@ -22,8 +22,12 @@ addrmap ivisnav #(longint unsigned VERSION_WORD = 0) {
 """
 
 
-def registers() -> dict[str, type[Register]]:
-    found = {name: value for name, value in vars(Oltae).items() if isinstance(value, type)}
+CORES = {"oltae": Oltae, "ivisnav": Ivisnav}
+cores = pytest.mark.parametrize("core", CORES)
+
+
+def registers(core: str = "oltae") -> dict[str, type[Register]]:
+    found = {name: value for name, value in vars(CORES[core]).items() if isinstance(value, type)}
     return {name: value for name, value in found.items() if issubclass(value, Register)}
 
 
@@ -33,12 +37,11 @@ def test_generated_files_are_current() -> None:
 
 def test_a_change_is_noticed(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
     """Every generated file, changed or gone, and every one of them after a change of the description."""
-    (tmp_path / "registers").mkdir()
+    shutil.copytree(regtool.ROOT / "registers", tmp_path / "registers")
     description = tmp_path / "registers" / "oltae.rdl"
-    shutil.copy(regtool.ROOT / "registers" / "oltae.rdl", description)
     assert regtool.main(["--root", str(tmp_path)]) == 0
     made = list(regtool.outputs(tmp_path))
-    assert len(made) == 4
+    assert len(made) == 8
     for name in made:
         assert (tmp_path / name).read_text() == (regtool.ROOT / name).read_text()
         good = (tmp_path / name).read_text()
@@ -48,7 +51,8 @@ def test_a_change_is_noticed(tmp_path: Path, capsys: pytest.CaptureFixture[str])
         assert regtool.stale(tmp_path) == [name]
         (tmp_path / name).write_text(good)
     description.write_text(description.read_text().replace("DATA_B @ 0x044", "DATA_B @ 0x04C"))
-    assert set(regtool.stale(tmp_path)) == set(made)
+    other = {name for name in made if "ivisnav" in name.name}
+    assert len(other) == 3 and set(regtool.stale(tmp_path)) == set(made) - other
     assert regtool.main(["--root", str(tmp_path), "--check"]) == 1
     assert "stale: rtl/include/oltae_registers.vh" in capsys.readouterr().err
     assert regtool.stale(regtool.ROOT, version="0.2.0") != [], "the version is part of the description"
@@ -59,7 +63,7 @@ def test_a_second_core_only_adds_its_file(tmp_path: Path) -> None:
     shutil.copy(regtool.ROOT / "registers" / "oltae.rdl", tmp_path / "registers")
     (tmp_path / "registers" / "ivisnav.rdl").write_text(OTHER)
     made = regtool.outputs(tmp_path)
-    assert len(made) == 7
+    assert len(made) == 8
     assert (
         made[Path("rtl/include/oltae_registers.vh")]
         == (regtool.ROOT / "rtl/include/oltae_registers.vh").read_text()
@@ -105,39 +109,69 @@ def test_version_word() -> None:
         regtool.version_word("next")
 
 
-def test_verilog_and_python_agree() -> None:
-    text = (regtool.ROOT / "rtl/include/oltae_registers.vh").read_text()
+@cores
+def test_verilog_and_python_agree(core: str) -> None:
+    text = (regtool.ROOT / f"rtl/include/{core}_registers.vh").read_text()
     addresses = dict(re.findall(r"(\w+)_ADDRESS = 12'h([0-9A-F]{3});", text))
     assert {name: int(value, 16) for name, value in addresses.items()} == {
-        n: r.ADDRESS for n, r in registers().items()
+        n: r.ADDRESS for n, r in registers(core).items()
     }
     words = {int(word, 16) for word in re.findall(r"10'h([0-9A-F]{3})", text)}
-    assert words == {r.element(i) // 4 for r in registers().values() for i in range(r.COUNT)}
+    assert words == {r.element(i) // 4 for r in registers(core).values() for i in range(r.COUNT)}
     places = {name: int(low) for name, low in re.findall(r"(\w+)_LSB = (\d+);", text)}
-    narrow = {(n, f): x for n, r in registers().items() for f, x in r.FIELDS.items() if x.width < 32}
+    narrow = {(n, f): x for n, r in registers(core).items() for f, x in r.FIELDS.items() if x.width < 32}
     assert places == {f"{name}_{field}": place.low for (name, field), place in narrow.items()}
 
 
-def test_what_the_register_file_relies_on() -> None:
+def test_common_registers_are_what_both_have() -> None:
+    """Each line of the common header is in both; registers of one name are the same register."""
+    folder = regtool.ROOT / "rtl/include"
+    lines = {
+        name: {line for line in (folder / f"{name}_registers.vh").read_text().splitlines() if " = " in line}
+        for name in ("common", *CORES)
+    }
+    assert lines["common"] == {
+        line for line in lines["oltae"] & lines["ivisnav"] if line.startswith("localparam")
+    }
+    for name in registers().keys() & registers("ivisnav").keys() - {"CONDITION", "RSS"}:
+        ours, theirs = registers()[name], registers("ivisnav")[name]
+        assert (ours.ADDRESS, ours.ACCESS) == (theirs.ADDRESS, theirs.ACCESS), name
+        for field in ours.FIELDS.keys() & theirs.FIELDS.keys():
+            assert ours.FIELDS[field] == theirs.FIELDS[field], (name, field)
+
+
+RESULTS = {
+    "oltae": ["Q", "Q_FIXED", "R", "T", "RSS", "CONDITION", "DETERMINANT", "SPARE", "Q_COV", "T_COV"],
+    "ivisnav": ["V", "OMEGA", "RSS", "COV"],
+}
+
+
+@cores
+def test_what_the_register_file_relies_on(core: str) -> None:
     """The RTL decodes 5 bits of word address below 0x80; from 0x100 on come the results in their order."""
-    results = ["Q", "Q_FIXED", "R", "T", "RSS", "CONDITION", "DETERMINANT", "SPARE", "Q_COV", "T_COV"]
+    found, results = registers(core), RESULTS[core]
     place = 0x100
     for name in results:
-        assert place == registers()[name].ADDRESS, name
-        place += 4 * registers()[name].COUNT
-    assert place == Oltae.SIZE == 0x100 + 4 * 34
-    assert all(r.ADDRESS < 0x80 and r.COUNT == 1 for n, r in registers().items() if n not in results)
-    assert list(Oltae.FLAGS.FIELDS.items()) == list(Oltae.FRAME_FLAGS.FIELDS.items())
-    assert [field.low for field in Oltae.FLAGS.FIELDS.values()] == list(range(10))
+        assert place == found[name].ADDRESS, name
+        place += 4 * found[name].COUNT
+    assert place == CORES[core].SIZE == 0x100 + 4 * {"oltae": 34, "ivisnav": 28}[core]
+    assert all(r.ADDRESS < 0x80 and r.COUNT == 1 for n, r in found.items() if n not in results)
+    flags = found["FLAGS"].FIELDS
+    assert list(flags.items()) == list(found["FRAME_FLAGS"].FIELDS.items())
+    assert [field.low for field in flags.values()] == [
+        bit for bit in range(10) if core == "oltae" or bit not in (6, 9)
+    ]
+    assert [int(state) for state in CORES[core].State] == [0, 1, 2, 3]
 
 
+@cores
 @pytest.mark.skipif(shutil.which("cc") is None, reason="no C compiler (cc)")
-def test_c_header_compiles(tmp_path: Path) -> None:
+def test_c_header_compiles(core: str, tmp_path: Path) -> None:
     """C99 without a warning, the layout checked by the header, const where the hardware ignores writes."""
-    header = regtool.ROOT / "sw/c/oltae_registers.h"
-    code = f'#include "{header}"\nvoid f(oltae_registers *r) {{ r->%s = 1; }}\n'
+    header = regtool.ROOT / f"sw/c/{core}_registers.h"
+    code = f'#include "{header}"\nvoid f({core}_registers *r) {{ r->%s = 1; }}\n'
     command = ["cc", "-std=c99", "-Wall", "-Wextra", "-pedantic", "-Werror", "-fsyntax-only", "-x", "c", "-"]
-    for name, register in registers().items():
+    for name, register in registers(core).items():
         row = "[0]" if register.COUNT > 1 else ""
         done = subprocess.run(command, input=code % (name + row), text=True, capture_output=True, check=False)
         assert (done.returncode == 0) == (register.ACCESS != "ro"), name + done.stderr

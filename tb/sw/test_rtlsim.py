@@ -14,14 +14,17 @@ import numpy as np
 import pytest
 from relnav.errors import BackendError
 from relnav.frames import make_frame
+from relnav.ivisnav.quantise import QuantisedRows
 from relnav.quantise import quantise
-from relnav.rtlsim import run_frames
+from relnav.rtlsim import run_frames, run_rate_frames
 
 from sim.runner import RTL, missing
 
 pytestmark = pytest.mark.skipif(missing("icarus") is not None, reason=str(missing("icarus")))
 A = np.random.default_rng(1).normal(size=(5, 3))
 FRAME = quantise(make_frame(A, A + 1.0))
+H = np.vstack((np.eye(6, dtype=np.int64), np.ones((2, 6), dtype=np.int64))) << 20
+ROWS = QuantisedRows(H, H @ [1, -2, 3, -4, 5, -6], np.ones(8, dtype=np.int64), 20, 20)
 
 
 def test_json_is_one_object(tmp_path: Path, simulator: str) -> None:
@@ -56,8 +59,8 @@ def replaced(file: str, old: str, new: str) -> Callable[[Path], None]:
             r"cannot compile the RTL: \S*/mine/oltae/oltae_core\.v:\d+: syntax error",
         ),
         (
-            replaced("oltae/oltae_core.v", "state <= LOAD", "state <= LOADD"),
-            r"/mine/oltae/oltae_core\.v:\d+: .*LOADD",
+            replaced("axi/frame_state.v", "state <= LOADING", "state <= LOADINGG"),
+            r"/mine/axi/frame_state\.v:\d+: .*LOADINGG",
         ),
         (lambda rtl: (rtl / "gram" / "centring.v").unlink(), r"/mine/gram/\w+\.v:\d+: .*centring"),
         (lambda rtl: (rtl / "include" / "relnav_words.vh").unlink(), r"/mine/\S+:\d+: .*relnav_words\.vh"),
@@ -103,8 +106,51 @@ def test_other_rtl_is_what_runs(tmp_path: Path, monkeypatch: pytest.MonkeyPatch)
     assert tuple(~word & 0xFFFFFFFF for word in ours.T) == theirs.T
 
 
+@pytest.mark.parametrize(
+    ("edit", "message"),
+    [
+        (lambda rtl: (rtl / "ivisnav" / "ivisnav_top.v").unlink(), r"mine: holds no ivisnav_top\.v"),
+        (
+            replaced("include/ivisnav_registers.vh", "32'h49564953", "32'h00000005"),
+            "no iVisNav core here: ID reads 0x00000005",
+        ),
+        (
+            replaced("ivisnav/ivisnav_core.v", ".frame_end(frame_end)", ".frame_end(1'b0)"),
+            "no result after .* state is SEND_DATA",
+        ),
+    ],
+    ids=["top", "id", "hang"],
+)
+def test_other_rtl_of_the_rates(
+    edit: Callable[[Path], None], message: str, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setenv("RELNAV_BUILD", str(tmp_path / "build"))
+    rtl = tmp_path / "mine"
+    shutil.copytree(RTL, rtl)
+    edit(rtl)
+    with pytest.raises(BackendError, match=message):
+        run_rate_frames([ROWS], "icarus", rtl_dir=rtl)
+
+
+def test_rates_of_an_exact_frame(simulator: str) -> None:
+    """y = H x with small integers: x comes back, twice the same."""
+    from relnav.ivisnav.raw import raw_to_result
+
+    first, second = run_rate_frames([ROWS, ROWS], simulator)
+    assert first == second and first.n == 8 and first.weight == 8
+    result = raw_to_result(first, "exact", ROWS)
+    assert result.v is not None and result.omega is not None and result.cycles is not None
+    assert [*result.v, *result.omega] == [1.0, -2.0, 3.0, -4.0, 5.0, -6.0] and result.rss == 0.0
+    assert 0 < result.cycles["rates"] < result.cycles["all"]
+
+
 def test_no_frames_no_simulation() -> None:
-    assert run_frames([], "no such simulator") == []
+    assert run_frames([], "no such simulator") == [] == run_rate_frames([], "no such simulator")
+
+
+def test_a_wrong_feed_is_refused() -> None:
+    with pytest.raises(BackendError, match="fed by stream or registers, not 'hand'"):
+        run_frames([FRAME], "icarus", feed="hand")
 
 
 @pytest.mark.parametrize("name", ["verilator", "icarus"])
@@ -122,13 +168,13 @@ def test_waveform(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     run_frames([FRAME], "icarus", waves=file)
     names = {variable.full_name for variable in pywellen.Waveform(str(file)).all_vars()}
     for name in (
-        "core.state_name",
+        "core.states.state_name",
         "loader.state_name",
         "s_axis_tdata",
         "registers.s_axil_araddr",
-        "core.q_ready",
+        "q_ready",
     ):
-        assert any(found.startswith(f"oltae_harness.top.{name}") for found in names), name
+        assert any(found.startswith(f"core_harness.top.{name}") for found in names), name
     file.unlink()
     monkeypatch.setenv("RELNAV_WAVES", str(file))
     run_frames([FRAME], "icarus")

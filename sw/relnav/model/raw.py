@@ -51,14 +51,7 @@ class CoreConfig:
 
     def variance_word(self, weight_scale: float = 1.0) -> int:
         """VARIANCE (binary32) for a frame. Raises InputError where it would become 0: that means rss."""
-        value = self.variance * weight_scale
-        if value == 0.0 and self.variance == 0.0:
-            return 0
-        with np.errstate(over="ignore", under="ignore"):
-            rounded = np.float32(value)
-        if not (np.isfinite(rounded) and rounded >= np.finfo(np.float32).tiny):
-            raise InputError(f"sigma^2 * weight scale = {value!r} is not a normal binary32 number")
-        return float_to_word(float(rounded))
+        return variance_word(self.variance, weight_scale)
 
 
 @dataclass(frozen=True)
@@ -121,6 +114,34 @@ def results_from_words(
     return fields
 
 
+def variance_word(variance: float, weight_scale: float = 1.0) -> int:
+    """The VARIANCE register (binary32): the user's variance at unit weight, at unit integer weight.
+
+    0 stays 0. Raises InputError for another value that would become 0 (that means rss) or infinite.
+    """
+    value = variance * weight_scale
+    if value == 0.0 and variance == 0.0:
+        return 0
+    with np.errstate(over="ignore", under="ignore"):
+        rounded = np.float32(value)
+    if not (np.isfinite(rounded) and rounded >= np.finfo(np.float32).tiny):
+        raise InputError(f"sigma^2 * weight scale = {value!r} is not a normal binary32 number")
+    return float_to_word(float(rounded))
+
+
+def floats_of(words: Sequence[int]) -> FloatArray:
+    """The binary32 numbers with these bit patterns, (len(words),)."""
+    return np.array([word_to_float(word) for word in words])
+
+
+def symmetric(words: Sequence[int], size: int) -> FloatArray:
+    """(size, size) from the binary32 words of an upper triangle, row-major."""
+    matrix = np.zeros((size, size))
+    rows, columns = np.triu_indices(size)
+    matrix[rows, columns] = matrix[columns, rows] = floats_of(words)
+    return matrix
+
+
 def raw_to_pose(raw: RawResult, frame_name: str | int, quantised: QuantisedFrame) -> PoseResult:
     """The typed result: binary32 words as the floats they are, the weights' scale undone where it matters.
 
@@ -129,9 +150,9 @@ def raw_to_pose(raw: RawResult, frame_name: str | int, quantised: QuantisedFrame
     if raw.failed:
         return PoseResult(frame_name, quantised.n, flags=raw.flag_names)
     scale = quantised.weight_scale
-    q = _floats(raw.q)
+    q = floats_of(raw.q)
     finite = bool(np.all(np.isfinite(q)))
-    rotation = _floats(raw.R).reshape(3, 3)
+    rotation = floats_of(raw.R).reshape(3, 3)
     cycles = None
     if raw.cycles_q is not None and raw.cycles_pose is not None and raw.cycles_all is not None:
         cycles = {"q": raw.cycles_q, "pose": raw.cycles_pose, "all": raw.cycles_all}
@@ -141,9 +162,9 @@ def raw_to_pose(raw: RawResult, frame_name: str | int, quantised: QuantisedFrame
         q=q if finite else None,
         quaternion=quaternion_of(rotation),
         R=rotation,
-        t=_floats(raw.T),
-        q_cov=_symmetric(raw.q_cov) if finite else None,
-        t_cov=_symmetric(raw.t_cov),
+        t=floats_of(raw.T),
+        q_cov=None if raw.q_cov is None or not finite else symmetric(raw.q_cov, 3),
+        t_cov=None if raw.t_cov is None else symmetric(raw.t_cov, 3),
         rss=word_to_float(raw.rss) / scale,
         turn=TURN_NAMES[raw.turn],
         flags=raw.flag_names,
@@ -166,15 +187,3 @@ def float_to_word(value: float) -> int:
 def word_to_float(word: int) -> float:
     """The binary32 number with this bit pattern."""
     return float(struct.unpack("<f", struct.pack("<I", word))[0])
-
-
-def _floats(words: Sequence[int]) -> FloatArray:
-    return np.array([word_to_float(word) for word in words])
-
-
-def _symmetric(words: Sequence[int] | None) -> FloatArray | None:
-    """(3, 3) from the upper triangle."""
-    if words is None:
-        return None
-    xx, xy, xz, yy, yz, zz = _floats(words)
-    return np.array([[xx, xy, xz], [xy, yy, yz], [xz, yz, zz]])

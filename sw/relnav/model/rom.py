@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import sys
+from collections.abc import Mapping
 from dataclasses import dataclass
 from pathlib import Path
 
@@ -56,6 +57,39 @@ def mask(lanes: frozenset[int]) -> int:
     return sum(1 << lane for lane in lanes)
 
 
+Fields = tuple[tuple[str, int], ...]
+"""Name and width, the most significant first."""
+
+
+def pack(fields: Fields, values: Mapping[str, int]) -> int:
+    """One word of a microprogram; fields not named are 0."""
+    word = 0
+    for name, width in fields:
+        value = int(values.get(name, 0))
+        assert 0 <= value < 1 << width, (name, value)
+        word = word << width | value
+    assert not set(values) - {name for name, _ in fields}
+    return word
+
+
+def ports(fields: Fields) -> str:
+    """A word's fields as output ports."""
+    return "\n".join(
+        f"    output wire {f'[{width - 1}:0] ' if width > 1 else ''}{name}," for name, width in fields
+    )
+
+
+def assigns(fields: Fields, word: str) -> str:
+    """The output ports' assignments from the register `word`."""
+    low = sum(width for _, width in fields)
+    lines = []
+    for name, width in fields:
+        low -= width
+        span = f"{low + width - 1}:{low}" if width > 1 else f"{low}"
+        lines.append(f"  assign {name} = {word}[{span}];")
+    return "\n".join(lines)
+
+
 def slot_words(dot: asm.Dot) -> list[int]:
     """One packed word a term."""
     words = []
@@ -93,17 +127,12 @@ def slot_words(dot: asm.Dot) -> list[int]:
                 "output_index": dot.output_index,
                 "mark": MARKS[dot.mark],
             }
-        word = 0
-        for name, width in FIELDS:
-            value = int(values.get(name, 0))
-            assert 0 <= value < 1 << width, (dot.name, name, value)
-            word = word << width | value
-        words.append(word)
+        words.append(pack(FIELDS, values))
     return words
 
 
 DRAIN_LATENCY = 17
-"""Cycles from `redrain` to its first item, at most (15 in the lean build)."""
+"""Cycles from `redrain` to its first item, at most (16 in the lean build)."""
 
 
 @dataclass(frozen=True)
@@ -195,15 +224,6 @@ def verilog() -> str:
             lines[start + slot] = f"      {ADDRESS}'d{start + slot}: word <= {value};  // {note}"
     end = target - 3
     assert leave < (1 << ADDRESS) - 1
-    ports = "\n".join(
-        f"    output wire {f'[{width - 1}:0] ' if width > 1 else ''}{name}," for name, width in FIELDS
-    )
-    low = WIDTH
-    assigns = []
-    for name, width in FIELDS:
-        low -= width
-        span = f"{low + width - 1}:{low}" if width > 1 else f"{low}"
-        assigns.append(f"  assign {name} = word[{span}];")
     body = "\n".join(lines[key] for key in sorted(lines))
     return f"""// SPDX-License-Identifier: Apache-2.0
 // Microprogram of the solve engine. Written by `python -m relnav.model.rom` from sw/relnav/model/pose_program.py and
@@ -220,7 +240,7 @@ module solve_program #(
     input  wire       clk,
     input  wire       run,
     input  wire [{ADDRESS - 1}:0] address,
-{ports}
+{ports(FIELDS)}
     // the re-application is called at CALL, starts at TARGET and leaves at LEAVE for CALL
     input  wire [{ADDRESS - 1}:0] counter,
     input  wire       reapply,         // wanted, and not yet done
@@ -241,7 +261,7 @@ module solve_program #(
   assign following = calling ? TARGET : leaving ? CALL : counter;
   assign redrain = run & address == {ADDRESS}'d{program.redrain};
   assign finished = address == {ADDRESS}'d{end + 1};
-{chr(10).join(assigns)}
+{assigns(FIELDS, "word")}
 endmodule
 `resetall
 """  # noqa: E501  (lines of Verilog)

@@ -3,17 +3,17 @@
 
 from __future__ import annotations
 
-import json
 from collections.abc import Callable, Sequence
 from dataclasses import asdict
 from pathlib import Path
 
 from ..comparison import Solutions
+from .files import Drawings, draw_groups, write_files
+from .key_table import Row, read_area
 from .page import page, verdict
 from .pose_figures import error_figure, estimate_figure, relative_error_figure
 from .sensor_figures import cloud_figure, flight_figure, match_figure
-from .style import Picture, house_style
-from .summary import Row, key_rows, read_area, summarise
+from .summary import key_rows, summarise
 from .timing import Timing
 from .waveform import waveform_figure
 
@@ -34,7 +34,7 @@ def write_report(
         step: called after each figure.
     """
     flight, middle = solved.flight, len(solved.flight.pairs) // 2
-    draw: list[tuple[str, list[Callable[[], Picture]]]] = [
+    draw: Drawings = [
         (
             "What the sensors saw",
             [
@@ -55,31 +55,13 @@ def write_report(
             ],
         ),
     ]
-    groups: list[tuple[str, list[Picture]]] = []
-    with house_style():
-        for title, figures in draw:
-            pictures: list[Picture] = []
-            for make in figures:
-                pictures.append(make())
-                step()
-            groups.append((title, pictures))
+    groups = draw_groups(draw, step)
     builds = read_area(area)
     rows = key_rows(solved, timings, builds)
     html = page(solved, rows, groups)
     summary = summarise(solved, timings, builds)
     summary |= {"verdict": verdict(solved), "key_table": [asdict(row) for row in rows]}
-    numbers = json.dumps(summary, indent=1, allow_nan=False)
-    # everything is made before anything is written
-    out.mkdir(parents=True, exist_ok=True)
-    for _, pictures in groups:
-        for picture in pictures:
-            target = out / f"{picture.name}.png"
-            if picture.png is None:
-                target.unlink(missing_ok=True)  # of an earlier run
-            else:
-                target.write_bytes(picture.png)
-    (out / "summary.json").write_text(numbers + "\n", encoding="utf-8")
-    (out / "report.html").write_text(html, encoding="utf-8")
+    write_files(out, groups, summary, html)
     return rows
 
 

@@ -29,12 +29,12 @@ def estimate_figure(solved: Solutions, field: str) -> Picture:
     for i, axes in enumerate(panels):
         axes.plot(frames, truth[:, i], color=TRUTH, linewidth=1.0, linestyle="--", label="truth", zorder=4)
         axes.plot(frames, double[:, i], "o", color=DOUBLE, markersize=7, mfc="none", label="double")
-        axes.plot(frames, core[:, i], ".", color=CORE, markersize=6, label=_label(solved))
+        axes.plot(frames, core[:, i], ".", color=CORE, markersize=6, label=core_label(solved.backend))
         axes.set_title(_component(field, i))
         _frame_axis(axes, frames)
         _steady(axes, truth[:, i], np.concatenate([core[:, i], double[:, i]]))
     panels[0].set_ylabel("Gibbs vector q, 1e-3" if field == "q" else "t, m")
-    _legend(drawn, panels[0])
+    shared_legend(drawn, panels[0])
     if field == "q":
         number, name, title = "8", "fig08_attitude", "Attitude estimates"
         text = (
@@ -67,7 +67,7 @@ def error_figure(solved: Solutions, field: str) -> Picture:
             reach = 1.25 * max(np.nanmax(bound), np.nanmax(np.abs(error[:, i] * factor)))
             axes.set_ylim(-reach, reach)
     panels[0].set_ylabel(f"error of {field}, {unit}")
-    _legend(drawn, panels[0])
+    shared_legend(drawn, panels[0])
     overall = float(np.mean(inside))
     text = (
         f"Core minus truth with the bounds the core itself computed. {overall:.1%} of the components lie "
@@ -92,13 +92,13 @@ def relative_error_figure(solved: Solutions) -> Picture:
                 style, color=PAPER, marker="s", markersize=3, label=f"Q15.16, {run.label}",
             )  # fmt: skip
         own = np.maximum(relative_percent(stacked(solved.core, field)[:, i], reference), FLOOR)
-        axes.semilogy(frames, own, color=CORE, marker="o", markersize=3.5, label=_label(solved))
+        axes.semilogy(frames, own, color=CORE, marker="o", markersize=3.5, label=core_label(solved.backend))
         axes.axhline(7.0, color=MUTED, linewidth=1.0, linestyle="--", label="published by the paper: 7 %")
         axes.set_title(name)
         _frame_axis(axes, frames)
         axes.grid(True, which="major", color=GRID)
     panels[0].set_ylabel("deviation from double, %")
-    _legend(drawn, panels[0])
+    shared_legend(drawn, panels[0])
     text = (
         "Deviation of each frame from double precision in the states with motion: this core, and the paper's "
         "Q15.16 pipeline fed with the same points at one scale alpha for the whole flight. The paper "
@@ -111,8 +111,9 @@ def _frames(solved: Solutions) -> FloatArray:
     return np.array([pair.frame.name for pair in solved.flight.pairs], dtype=np.float64)
 
 
-def _label(solved: Solutions) -> str:
-    return {"fixed": "bit-exact model", "double": "double"}.get(solved.backend, f"RTL ({solved.backend})")
+def core_label(backend: str) -> str:
+    """The backend in a legend."""
+    return {"fixed": "bit-exact model", "double": "double"}.get(backend, f"RTL ({backend})")
 
 
 def _component(field: str, i: int) -> str:
@@ -139,6 +140,7 @@ def _steady(axes: Any, truth: FloatArray, values: FloatArray) -> None:
     axes.set_ylim(centre - half, centre + half)
 
 
-def _legend(drawn: Any, axes: Any) -> None:
+def shared_legend(drawn: Any, axes: Any, columns: int | None = None) -> None:
+    """One legend under all panels, from one of them."""
     handles, labels = axes.get_legend_handles_labels()
-    drawn.legend(handles, labels, loc="outside lower center", ncols=len(labels))
+    drawn.legend(handles, labels, loc="outside lower center", ncols=columns or len(labels))

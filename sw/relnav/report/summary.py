@@ -3,42 +3,20 @@
 
 from __future__ import annotations
 
-import json
 from collections.abc import Sequence
-from dataclasses import dataclass
-from pathlib import Path
 from typing import Any
 
 import numpy as np
 
 from .. import __version__
 from ..comparison import Solutions, relative_percent, stacked
+from .key_table import Row, area_rows, cycle_row, in_seconds, plain_types
 from .pose_figures import STATES
 from .timing import Timing
 
-CLOCK_HZ = 100e6  # the paper's
 PAPER_CYCLES = 170
 PAPER_AREA = {"LUT": 5545, "LUTRAM": 153, "FF": 7597, "DSP": 137}
 PAPER_SECONDS_CPU = 2.1e-3  # Intel i7-7800X, 3.5 GHz, MATLAB
-
-
-@dataclass(frozen=True)
-class Row:
-    """One line of the key table. good: None where there is nothing to pass."""
-
-    name: str
-    paper: str
-    here: str
-    good: bool | None = None
-
-
-def read_area(path: Path, top: str = "oltae_top") -> dict[str, dict[str, float]]:
-    """Totals of the top's builds in syn/results.json as {build: {LUT, FF, DSP, ...}}; empty without them."""
-    try:
-        builds = json.loads(path.read_text(encoding="utf-8"))[top]["area"]["builds"]
-        return {name: dict(build["total"]) for name, build in builds.items()}
-    except (OSError, ValueError, LookupError, TypeError, AttributeError):
-        return {}
 
 
 def summarise(
@@ -50,7 +28,7 @@ def summarise(
     t_error, t_sigma = solved.errors("t")
     cycles = [result.cycles for result in solved.core if result.cycles]
     counts = [len(pair.frame.a) for pair in flight.pairs]
-    summary: dict[str, Any] = _plain(
+    summary: dict[str, Any] = plain_types(
         {
             "relnav": __version__,
             "terrain": flight.terrain.name,
@@ -134,10 +112,10 @@ def key_rows(solved: Solutions, timings: Sequence[Timing], area: dict[str, dict[
     inside = np.concatenate([solved.share_inside("q"), solved.share_inside("t")])
     rows.append(Row("components inside 3 sigma", "all", f"{inside.mean():.1%}"))
     rows += _cycle_rows(solved)
-    rows += _area_rows(area)
+    rows += area_rows(area, PAPER_AREA)
     for k, timing in enumerate(timings):
         paper = f"{PAPER_SECONDS_CPU * 1e3:.1f} ms (MATLAB, i7, q)" if k == 0 else ""
-        rows.append(Row(f"one pose on this CPU: {timing.name}", paper, _seconds(timing.seconds)))
+        rows.append(Row(f"one pose on this CPU: {timing.name}", paper, in_seconds(timing.seconds)))
     return rows
 
 
@@ -147,39 +125,9 @@ def _cycle_rows(solved: Solutions) -> list[Row]:
         return [Row("cycles after the last beat", str(PAPER_CYCLES), "RTL backends only")]
     rows = []
     for key, name, target in (("q", "q", 100), ("pose", "R and t", 130), ("all", "covariance, rss", None)):
-        values = [c[key] for c in cycles]
-        span = f"{min(values)}" if min(values) == max(values) else f"{min(values)} to {max(values)}"
-        text = f"{span} ({max(values) / CLOCK_HZ * 1e6:.2f} us at 100 MHz)"
-        met = target is not None and max(values) <= target
-        if target is not None and not met:
-            text += f", target {target} missed"  # a slow core is not a wrong one: the run still passes
         paper = f"{PAPER_CYCLES} (centred by software)" if key == "q" else "-"
-        rows.append(Row(f"cycles to {name}", paper, text, met or None))
+        rows.append(cycle_row(name, paper, [c[key] for c in cycles], target))
     return rows
-
-
-def _area_rows(area: dict[str, dict[str, float]]) -> list[Row]:
-    paper = " / ".join(str(count) for count in PAPER_AREA.values())
-    name = " / ".join(PAPER_AREA)
-    if not area:
-        return [Row(f"{name}, xc7z020", paper, "not synthesised yet: make synth")]
-    counts = {
-        build: " / ".join(f"{total.get(key, 0):g}" for key in PAPER_AREA) for build, total in area.items()
-    }
-    return [Row(f"{name}, {build} build", paper, text) for build, text in counts.items()]
-
-
-def key_table(title: str, rows: Sequence[Row]) -> str:
-    """The key table for a terminal."""
-    cells = [("", "paper", "here"), *((row.name, row.paper, row.here) for row in rows)]
-    width = [max(len(cell[i]) for cell in cells) for i in range(3)]
-    marks = [""] + [{True: "ok", False: "FAIL", None: ""}[row.good] for row in rows]
-    lines = [
-        f"  {cell[0]:<{width[0]}}  {cell[1]:<{width[1]}}  {cell[2]:<{width[2]}}  {mark}".rstrip()
-        for cell, mark in zip(cells, marks, strict=True)
-    ]
-    rule = "  " + "-" * (sum(width) + 8)
-    return "\n".join([title, lines[0], rule, *lines[1:]])
 
 
 def _worst(solved: Solutions, paper: int | None) -> list[float]:
@@ -201,20 +149,3 @@ def _rms(error: Any) -> Any:
 
 def _percent(value: float) -> str:
     return f"{value:.2g} %" if np.isfinite(value) else "det M = 0"
-
-
-def _seconds(value: float) -> str:
-    return f"{value * 1e6:.0f} us" if value < 1e-3 else f"{value * 1e3:.1f} ms"
-
-
-def _plain(value: Any) -> Any:
-    """JSON has neither arrays nor infinities."""
-    if isinstance(value, dict):
-        return {key: _plain(child) for key, child in value.items()}
-    if isinstance(value, np.ndarray | list | tuple):
-        return [_plain(child) for child in (value.tolist() if isinstance(value, np.ndarray) else value)]
-    if isinstance(value, np.generic):
-        value = value.item()
-    if isinstance(value, float) and not np.isfinite(value):
-        return None
-    return value

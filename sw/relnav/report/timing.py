@@ -6,6 +6,7 @@ from __future__ import annotations
 import time
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass
+from typing import Any
 
 import cv2
 import numpy as np
@@ -32,16 +33,17 @@ def time_solvers(frames: Sequence[Frame], repeats: int = 5) -> list[Timing]:
     cv2.setNumThreads(1)
     try:
         return [
-            Timing("numpy, OLTAE (Eq. 25)", _median(_attitude, frames, repeats), "q"),
-            Timing("numpy, golden model", _median(_golden, frames, repeats), "q, R, t, covariance"),
-            Timing("numpy, SVD (Kabsch)", _median(_kabsch, frames, repeats), "R, t"),
-            Timing("OpenCV, estimateAffine3D", _median(_opencv, frames, repeats), "R, t, unweighted"),
+            Timing("numpy, OLTAE (Eq. 25)", median_seconds(_attitude, frames, repeats), "q"),
+            Timing("numpy, golden model", median_seconds(_golden, frames, repeats), "q, R, t, covariance"),
+            Timing("numpy, SVD (Kabsch)", median_seconds(_kabsch, frames, repeats), "R, t"),
+            Timing("OpenCV, estimateAffine3D", median_seconds(_opencv, frames, repeats), "R, t, unweighted"),
         ]
     finally:
         cv2.setNumThreads(threads)
 
 
-def _median(solver: Solver, frames: Sequence[Frame], repeats: int) -> float:
+def median_seconds(solver: Callable[[Any], object], frames: Sequence[Any], repeats: int) -> float:
+    """Median time of one call over all frames and repeats."""
     solver(frames[0])  # the first call pays for imports and caches
     spent: list[float] = []
     for _ in range(repeats):

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Frames through the real RTL: builds oltae_top under a simulator and runs the driver on it.
+"""Frames through the real RTL: builds a core's top under a simulator and runs the driver on it.
 
 It needs the checkout that this package lies in (sim/, rtl/), cocotb and a simulator.
 """
@@ -16,18 +16,22 @@ import shutil
 import sys
 import tempfile
 from collections.abc import Iterator, Mapping, Sequence
+from dataclasses import asdict
 from pathlib import Path
 from typing import Any
 
 from relnav.errors import BackendError
+from relnav.ivisnav.quantise import QuantisedRows
+from relnav.ivisnav.raw import RawRates
 from relnav.model.raw import CoreConfig, RawResult
 from relnav.quantise import QuantisedFrame
 
 from . import job
+from .cores import CORES
 
 CHECKOUT = Path(__file__).resolve().parents[3]
 BENCH = "relnav.rtlsim.bench"
-TOP = "oltae_harness"
+HARNESS = "core_harness"
 # how Icarus and Verilator begin an error: FILE:LINE: ..., %Error[-CODE]: FILE:LINE:COLUMN: ...
 _MESSAGE = re.compile(
     r"^(?:%Error(?:-\w+)?: )?(?P<file>/?[^\s:]+\.vh?):(?P<line>\d+):(?:\d+:)? ?(?:error: )?(?P<text>.*)$"
@@ -52,24 +56,58 @@ def run_frames(
     feed: "stream" or "registers". parameters: of oltae_top, such as {"WEIGHTED": 0}. timeout: seconds.
     Raises BackendError: simulator missing, RTL that does not compile, a core that gives no result.
     """
+    options = asdict(config or CoreConfig())
+    return _run("oltae", frames, options, simulator, rtl_dir, waves, feed, parameters or {}, timeout)
+
+
+def run_rate_frames(
+    rows: Sequence[QuantisedRows],
+    simulator: str,
+    *,
+    variance: float = 0.0,
+    rtl_dir: str | Path | None = None,
+    waves: Path | None = None,
+    feed: str = "stream",
+    timeout: float = 3600.0,
+) -> list[RawRates]:
+    """The register words that ivisnav_top leaves for each frame; as `run_frames`.
+
+    variance: of y at the user's unit weight, 0: the core takes it from the residuals.
+    """
+    return _run("ivisnav", rows, {"variance": variance}, simulator, rtl_dir, waves, feed, {}, timeout)
+
+
+def _run(
+    core: str,
+    frames: Sequence[Any],
+    options: Mapping[str, Any],
+    simulator: str,
+    rtl_dir: str | Path | None,
+    waves: Path | None,
+    feed: str,
+    parameters: Mapping[str, int],
+    timeout: float,
+) -> list[Any]:
     if not frames:
         return []
     runner = _runner()
     rtl = CHECKOUT / "rtl" if rtl_dir is None else Path(rtl_dir)
-    sources = [*_sources(runner, rtl), CHECKOUT / "sim" / f"{TOP}.v"]
+    top = CORES[core].top
+    sources = [*_sources(runner, rtl, top), CHECKOUT / "sim" / f"{HARNESS}.v"]
+    values = ", ".join(f".{name}({value})" for name, value in parameters.items())
     if waves is None and os.environ.get("RELNAV_WAVES"):
         waves = Path(os.environ["RELNAV_WAVES"])
     folder = Path(tempfile.mkdtemp(prefix="relnav-"))
     keep = False
     try:
-        job.write(folder / job.JOB, frames, config or CoreConfig(), feed)
+        job.write(folder / job.JOB, core, frames, options, feed)
         with _quiet():
             runner.build_and_test(
-                TOP,
+                HARNESS,
                 sources,
                 BENCH,
                 simulator=simulator,
-                parameters=parameters,
+                defines={"RELNAV_TOP": top, "RELNAV_PARAMETERS": f"#({values})" if values else ""},
                 waves=waves or False,
                 includes=[rtl / "include"],
                 env={"RELNAV_JOB": str(folder)},
@@ -77,7 +115,7 @@ def run_frames(
                 timeout=timeout,
                 public=False,
             )
-        return job.read_results(folder / job.RESULTS)
+        return job.read_results(folder / job.RESULTS, core)
     except runner.SimulatorMissing as error:
         raise BackendError(error) from None
     except runner.SimulationFailed as error:
@@ -98,7 +136,7 @@ def run_frames(
 
 def _runner() -> Any:
     """sim.runner of this checkout."""
-    if not (CHECKOUT / "sim" / f"{TOP}.v").is_file():
+    if not (CHECKOUT / "sim" / f"{HARNESS}.v").is_file():
         raise BackendError(f"the RTL is simulated from a checkout of the repository, and {CHECKOUT} is none")
     if str(CHECKOUT) not in sys.path:
         sys.path.append(str(CHECKOUT))
@@ -108,13 +146,13 @@ def _runner() -> Any:
         raise BackendError(f"the simulation needs more packages (make setup): {error}") from None
 
 
-def _sources(runner: Any, rtl: Path) -> list[Path]:
+def _sources(runner: Any, rtl: Path, top: str) -> list[Path]:
     """Every Verilog file of a copy of rtl/."""
     if not rtl.is_dir():
         raise BackendError(f"{rtl}: no such RTL directory")
     sources: list[Path] = runner.sources(rtl_dir=rtl)
-    if not any(file.name == "oltae_top.v" for file in sources):
-        raise BackendError(f"{rtl}: holds no oltae_top.v; a copy of rtl/ with its folders is needed")
+    if not any(file.stem == top for file in sources):
+        raise BackendError(f"{rtl}: holds no {top}.v; a copy of rtl/ with its folders is needed")
     return sources
 
 

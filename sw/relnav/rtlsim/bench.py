@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Runs inside the simulator: the driver, in a thread, on oltae_harness."""
+"""Runs inside the simulator: the driver, in a thread, on core_harness."""
 
 from __future__ import annotations
 
@@ -12,12 +12,11 @@ from cocotb.clock import Clock
 from cocotb.task import bridge
 from cocotb.triggers import ClockCycles, FallingEdge
 
-from relnav.driver import OltaeDriver
 from relnav.errors import BackendError
-from relnav.model.raw import RawResult
 
 from . import job
 from .bus import PERIOD_NS, HarnessBus
+from .cores import CORES
 
 POLLS = 200  # each takes at least 40 clocks, a frame that is fed at most 2048: then the watchdog barks
 
@@ -26,7 +25,8 @@ POLLS = 200  # each takes at least 40 clocks, a frame that is fed at most 2048: 
 async def run_job(dut: Any) -> None:
     """The frames of the job, back to back; results or the reason for none go to the job's folder."""
     folder = Path(os.environ["RELNAV_JOB"])
-    frames, config, feed = job.read(folder / job.JOB)
+    given = job.read(folder / job.JOB)
+    core = CORES[given.core]
     dut.go.value = 0
     dut.gap.value = 0
     dut.rst.value = 1
@@ -37,10 +37,11 @@ async def run_job(dut: Any) -> None:
     dut.rst.value = 0
 
     @bridge
-    def drive() -> list[RawResult]:
-        driver = OltaeDriver(bus, bus.idle)
+    def drive() -> list[Any]:
+        driver: Any = core.driver(bus, bus.idle)
         driver.identify()
-        return [driver.solve(frame, config, feed=feed, polls=POLLS) for frame in frames]
+        options = core.options(given.options)
+        return [driver.solve(frame, **options, feed=given.feed, polls=POLLS) for frame in given.frames]
 
     try:
         job.write_results(folder / job.RESULTS, await drive())

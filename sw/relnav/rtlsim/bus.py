@@ -56,7 +56,7 @@ class RegisterBus:
 
 
 class HarnessBus(RegisterBus):
-    """The registers and the stream source of sim/oltae_harness.v."""
+    """The registers and the stream source of sim/core_harness.v."""
 
     @resume
     async def stream(self, beats: Sequence[int]) -> None:

@@ -1,59 +1,66 @@
 # SPDX-License-Identifier: Apache-2.0
-"""What goes to the simulation's process and what comes back: files in one folder."""
+"""What goes to the simulation's process and what comes back: files in one folder.
+
+Frames and results are dataclasses of the core (`cores.CORES`); a frame's fields are arrays, numbers or None.
+"""
 
 from __future__ import annotations
 
 import json
-from collections.abc import Sequence
-from dataclasses import asdict
+from collections.abc import Mapping, Sequence
+from dataclasses import asdict, dataclass, fields
 from pathlib import Path
 from typing import Any, get_args
 
 import numpy as np
 
 from relnav.driver import Feed
-from relnav.model.raw import CoreConfig, RawResult
-from relnav.quantise import QuantisedFrame
+
+from .cores import CORES
 
 JOB = "job.npz"
 RESULTS = "results.json"
+UNUSED = "name"
+"""Field of a frame that the core has no use for."""
 
 
-def write(file: Path, frames: Sequence[QuantisedFrame], config: CoreConfig, feed: str) -> None:
-    """Write the frames, the configuration of all of them and the way to feed them."""
+@dataclass(frozen=True)
+class Job:
+    """Frames for one core, the options of all of them and the way to feed them."""
+
+    core: str
+    frames: list[Any]
+    options: Mapping[str, Any]
+    feed: Feed
+
+
+def write(file: Path, core: str, frames: Sequence[Any], options: Mapping[str, Any], feed: str) -> None:
+    """Write a job. ValueError for an unknown feed."""
     if feed not in get_args(Feed):
         raise ValueError(f"frames are fed by {' or '.join(get_args(Feed))}, not {feed!r}")
-    head = {
-        "config": asdict(config),
-        "feed": feed,
-        "frames": [{"frac": frame.frac, "weight_scale": frame.weight_scale} for frame in frames],
-    }
-    arrays: dict[str, Any] = {"head": np.array(json.dumps(head))}
+    arrays: dict[str, Any] = {}
+    plain: list[dict[str, Any]] = []
     for number, frame in enumerate(frames):
-        arrays[f"a{number}"], arrays[f"b{number}"] = frame.a, frame.b
-        if frame.w is not None:
-            arrays[f"w{number}"] = frame.w
-    np.savez(file, **arrays)
+        values = {field.name: getattr(frame, field.name) for field in fields(frame) if field.name != UNUSED}
+        arrays |= {f"{name}{number}": v for name, v in values.items() if isinstance(v, np.ndarray)}
+        plain.append({name: v for name, v in values.items() if not isinstance(v, np.ndarray)})
+    head = {"core": core, "options": dict(options), "feed": feed, "frames": plain}
+    np.savez(file, head=np.array(json.dumps(head)), **arrays)
 
 
-def read(file: Path) -> tuple[list[QuantisedFrame], CoreConfig, Feed]:
+def read(file: Path) -> Job:
     """What `write` wrote."""
     with np.load(file) as stored:
         head = json.loads(str(stored["head"]))
-        frames = [
-            QuantisedFrame(
-                stored[f"a{number}"],
-                stored[f"b{number}"],
-                stored.get(f"w{number}"),
-                each["frac"],
-                each["weight_scale"],
-            )
-            for number, each in enumerate(head["frames"])
-        ]
-    return frames, CoreConfig(**head["config"]), head["feed"]
+        kind = CORES[head["core"]].frame
+        frames = []
+        for number, plain in enumerate(head["frames"]):
+            names = {field.name for field in fields(kind)} - plain.keys() - {UNUSED}
+            frames.append(kind(**plain, **{name: stored[f"{name}{number}"] for name in names}))
+    return Job(head["core"], frames, head["options"], head["feed"])
 
 
-def write_results(file: Path, results: Sequence[RawResult]) -> None:
+def write_results(file: Path, results: Sequence[Any]) -> None:
     """Write the results."""
     file.write_text(json.dumps({"results": [asdict(result) for result in results]}))
 
@@ -63,10 +70,11 @@ def write_failure(file: Path, reason: str) -> None:
     file.write_text(json.dumps({"failure": reason}))
 
 
-def read_results(file: Path) -> list[RawResult]:
+def read_results(file: Path, core: str) -> list[Any]:
     """The results that were written."""
     found: list[dict[str, Any]] = json.loads(file.read_text())["results"]
-    return [RawResult(**{name: _immutable(value) for name, value in one.items()}) for one in found]
+    kind = CORES[core].result
+    return [kind(**{name: _immutable(value) for name, value in one.items()}) for one in found]
 
 
 def _immutable(value: Any) -> Any:

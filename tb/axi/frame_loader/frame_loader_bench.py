@@ -18,8 +18,12 @@ from cocotb.triggers import ClockCycles, FallingEdge, ReadOnly
 
 from tb.common import clocks
 
-WEIGHTED = os.environ.get("WEIGHTED", "1") == "1"
-FLAGS = ("few_points", "zero_weight", "bad_tlast", "too_long")
+BEATS = int(os.environ.get("BEATS", "3"))
+LEAST = int(os.environ.get("LEAST", "3"))
+WEIGHTED = int(os.environ.get("WEIGHTED", "1"))
+FRONT, INSIDE = WEIGHTED == 1, WEIGHTED == 2
+"""Where a weight may be: a beat in front of the row, or bits 47:32 of its last beat."""
+FLAGS = ("few_rows", "zero_weight", "bad_tlast", "too_long")
 PULSES = ("clear", "frame_start", "frame_end", "frame_dropped", *FLAGS)
 LONGEST = 65535
 STATES = ("IDLE", "LOAD", "SWALLOW")
@@ -27,7 +31,10 @@ STATES = ("IDLE", "LOAD", "SWALLOW")
 
 @dataclass
 class Frame:
-    """The beats of one frame. The counter is set as if `done` points had come before the first."""
+    """The beats of one frame. The counter is set as if `done` rows had come before the first.
+
+    weighted: a weight beat in front of each row.
+    """
 
     beats: list[int]
     weighted: bool = False
@@ -46,15 +53,15 @@ class Expected:
 def expect(frame: Frame) -> Expected:
     """The contract in plain words."""
     out = Expected(length=len(frame.beats))
-    per_point = 4 if frame.weighted else 3
+    per_row = BEATS + frame.weighted
     weight, total = 1, 0
     swallowing = False
     for position, data in enumerate(frame.beats):
         last = position == len(frame.beats) - 1
-        part = position % per_point
-        point = frame.done + position // per_point + 1
+        part = position % per_row
+        row = frame.done + position // per_row + 1
         pulses: set[str] = set()
-        if point > LONGEST:
+        if row > LONGEST:
             if not swallowing:
                 pulses.add("too_long")
             swallowing = True
@@ -62,11 +69,15 @@ def expect(frame: Frame) -> Expected:
                 pulses.add("frame_dropped")
             out.pulses.append(pulses)
             continue
+        closes = part == per_row - 1
         if frame.weighted and part == 0:
             weight = data & 0xFFFF
             total += weight
-        closes = part == per_point - 1
-        good = closes and point >= 3 and (total > 0 or not frame.weighted)
+        if INSIDE and closes:
+            weight = data >> 32 & 0xFFFF
+            total += weight
+        some = total > 0 or not (frame.weighted or INSIDE)
+        good = closes and row >= LEAST and some
         if last:
             if good:
                 pulses.add("frame_end")
@@ -75,12 +86,12 @@ def expect(frame: Frame) -> Expected:
                 if not closes:
                     pulses.add("bad_tlast")
                 else:
-                    pulses |= {"few_points"} if point < 3 else set()
-                    pulses |= {"zero_weight"} if frame.weighted and not total else set()
+                    pulses |= {"few_rows"} if row < LEAST else set()
+                    pulses |= set() if some else {"zero_weight"}
         out.pulses.append(pulses)
         if not (frame.weighted and part == 0):
-            index = part - 1 if frame.weighted else part
-            out.beats.append((data, index, weight, int(last and good)))
+            index = part - frame.weighted
+            out.beats.append((data, index, weight if closes else -1, int(last and good)))
     return out
 
 
@@ -193,8 +204,9 @@ class Bench:
             assert pulses == due, f"{pulses} instead of {due}"
             if beat:
                 last = int(dut.beat_last.value)
-                weight = int(dut.beat_weight.value)
-                self.seen.append((int(dut.beat_data.value), int(dut.beat_index.value), weight, last))
+                index = int(dut.beat_index.value)
+                weight = int(dut.beat_weight.value) if index == BEATS - 1 else -1
+                self.seen.append((int(dut.beat_data.value), index, weight, last))
                 assert takers, "the array took a beat that the source keeps"
                 assert self.seen == self.expected.beats[: len(self.seen)], (self.seen[-1], len(self.seen))
             self.accepted += len(takers)
@@ -232,38 +244,41 @@ class Bench:
         raise AssertionError("a frame got stuck")
 
 
-def beats(rng: random.Random, points: int, weighted: bool, weight: int | None = None) -> list[int]:
+def beats(rng: random.Random, rows: int, weighted: bool, weight: int | None = None) -> list[int]:
+    """Beats of whole rows; `weight` of all of them, None at random."""
     out = []
-    for _ in range(points):
+    for _ in range(rows):
+        value = rng.choice([0, 1, 65535, rng.getrandbits(16)]) if weight is None else weight
         if weighted:
-            value = rng.choice([0, 1, 65535, rng.getrandbits(16)]) if weight is None else weight
             out.append(rng.getrandbits(48) << 16 | value)
-        out += [rng.getrandbits(64) for _ in range(3)]
+        out += [rng.getrandbits(64) for _ in range(BEATS)]
+        if INSIDE:
+            out[-1] = out[-1] & ~(0xFFFF << 32) | value << 32
     return out
 
 
 def random_frame(rng: random.Random, kind: str = "", extra: int = 0) -> Frame:
-    weighted = WEIGHTED and rng.random() < 0.5
+    weighted = FRONT and rng.random() < 0.5
     kind = kind or rng.choice(["good", "good", "good", "few", "zero", "inside", "long", "exact"])
-    points = rng.randint(3, 9)
+    rows = rng.randint(LEAST, 9)
     if kind == "few":
-        return Frame(beats(rng, rng.randint(1, 2), weighted, rng.choice([0, None])), weighted)
+        return Frame(beats(rng, rng.randint(1, LEAST - 1), weighted, rng.choice([0, None])), weighted)
     if kind == "zero":
-        return Frame(beats(rng, points, weighted, 0), weighted)
+        return Frame(beats(rng, rows, weighted, 0), weighted)
     if kind == "inside":
-        whole = beats(rng, points, weighted)
-        per_point = 4 if weighted else 3
-        return Frame(whole[: rng.randrange(points) * per_point + rng.randint(1, per_point - 1)], weighted)
+        whole = beats(rng, rows, weighted)
+        per_row = BEATS + weighted
+        return Frame(whole[: rng.randrange(rows) * per_row + rng.randint(1, per_row - 1)], weighted)
     if kind == "long":
-        extra = extra or rng.randint(1, 5 * (3 + weighted))
+        extra = extra or rng.randint(1, 5 * (BEATS + weighted))
         return Frame(
-            [*beats(rng, points, weighted), *(rng.getrandbits(64) for _ in range(extra))],
+            [*beats(rng, rows, weighted), *(rng.getrandbits(64) for _ in range(extra))],
             weighted,
-            LONGEST - points,
+            LONGEST - rows,
         )
     if kind == "exact":
-        return Frame(beats(rng, points, weighted), weighted, LONGEST - points)
-    return Frame(beats(rng, points, weighted), weighted)
+        return Frame(beats(rng, rows, weighted), weighted, LONGEST - rows)
+    return Frame(beats(rng, rows, weighted), weighted)
 
 
 @cocotb.test(timeout_time=20, timeout_unit="ms")
@@ -296,14 +311,14 @@ async def random_frames(dut: Any) -> None:
 async def every_error(dut: Any) -> None:
     """Each error alone, by each source, followed by a good frame at once."""
     bench = await Bench(dut, 2).begin()
-    kinds = {"few": "few_points", "inside": "bad_tlast", "long": "too_long"}
+    kinds = {"few": "few_rows", "inside": "bad_tlast", "long": "too_long"}
     if WEIGHTED:
         kinds["zero"] = "zero_weight"
     for name, source in bench.sources.items():
         for kind, flag in kinds.items():
             for _ in range(8):
                 frame = random_frame(bench.rng, kind)
-                if kind == "zero" and not frame.weighted:
+                if kind == "zero" and not (frame.weighted or INSIDE):
                     continue
                 before = dict(bench.count)
                 source.frames += [frame, random_frame(bench.rng, "good")]
@@ -319,7 +334,7 @@ async def resets(dut: Any) -> None:
     """A soft reset in every state, at every beat, with and without a beat waiting; the next frame is good."""
     bench = await Bench(dut, 3).begin()
     bench.gap, bench.stall = 0.4, 0.2
-    parts = range(4) if WEIGHTED else range(3)
+    parts = range(BEATS + FRONT)
     wanted = {("LOAD", part, offered) for part in parts for offered in (False, True)}
     wanted |= {("SWALLOW", part, offered) for part in parts for offered in (False, True)}
     for _ in range(40_000):
@@ -358,7 +373,7 @@ async def priority(dut: Any) -> None:
 
 @cocotb.test(timeout_time=20, timeout_unit="ms")
 async def longest_frames(dut: Any) -> None:
-    """65535 points for real end well; with one more beat they are swallowed; the next frame is good again.
+    """65535 rows for real end well; with one more beat they are swallowed; the next frame is good again.
 
     The beats come without a gap, so the simulator runs alone and Python only looks at the ends.
     """
@@ -370,7 +385,7 @@ async def longest_frames(dut: Any) -> None:
         beat_ready=1,
         s_axis_tvalid=0,
         s_axis_tlast=0,
-        s_axis_tdata=1,
+        s_axis_tdata=1 << 32 | 1,
         push_valid=0,
     )
 
@@ -382,12 +397,12 @@ async def longest_frames(dut: Any) -> None:
         dut.s_axis_tvalid.value = 1
         assert await settle() == {"clear", "frame_start"}
         await FallingEdge(dut.clk)
-        await ClockCycles(dut.clk, 3 * LONGEST - 1)  # all but the last beat of point 65535
+        await ClockCycles(dut.clk, BEATS * LONGEST - 1)  # all but the last beat of row 65535
         await FallingEdge(dut.clk)
         dut.s_axis_tlast.value = 1 - extra
         assert int(dut.count.value) == LONGEST
         assert await settle() == (set() if extra else {"frame_end"})
-        assert int(dut.beat_last.value) == 1 - extra and int(dut.beat_index.value) == 2
+        assert int(dut.beat_last.value) == 1 - extra and int(dut.beat_index.value) == BEATS - 1
         await FallingEdge(dut.clk)
         if extra:
             assert await settle() == {"too_long"} and not int(dut.beat_valid.value)

@@ -6,21 +6,24 @@ import pytest
 from sim.runner import RTL, build_and_test
 
 SOURCES = [RTL / "axi" / "frame_loader.v"]
+BUILDS = {
+    "weight-in-front": {"BEATS": 3, "LEAST": 3, "WEIGHTED": 1},
+    "no-weight": {"BEATS": 3, "LEAST": 3, "WEIGHTED": 0},
+    "weight-inside": {"BEATS": 4, "LEAST": 6, "WEIGHTED": 2},
+}
 
 
-@pytest.mark.parametrize("weighted", [1, 0])
-def test_frame_loader(simulator: str, weighted: int) -> None:
-    parameters = {"WEIGHTED": weighted}
-    env = {"WEIGHTED": str(weighted)}
+@pytest.mark.parametrize("build", BUILDS)
+def test_frame_loader(simulator: str, build: str) -> None:
     tests = ["random_frames", "every_error", "resets", "priority"]
-    if simulator == "verilator" or weighted:  # 65535 points for real: 10 s on Icarus
+    if simulator == "verilator" or build == "weight-in-front":  # 65535 rows for real: 10 s on Icarus
         tests.append("longest_frames")
     build_and_test(
         "frame_loader",
         SOURCES,
         "frame_loader_bench",
         simulator=simulator,
-        parameters=parameters,
+        parameters=BUILDS[build],
         testcase=tests,
-        env=env,
+        env={name: str(value) for name, value in BUILDS[build].items()},
     )

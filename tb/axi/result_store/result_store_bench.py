@@ -3,6 +3,7 @@
 
 from __future__ import annotations
 
+import os
 import random
 from typing import Any
 
@@ -10,9 +11,11 @@ import cocotb
 
 from tb.common import clocks
 
-GROUPS = {"q": range(3), "pose": range(3, 18), "all": range(18, 64)}
-IDLE = dict.fromkeys(("write_valid", "write_index", "write_data", "read_valid", "read_index"), 0)
-IDLE |= {f"{name}_commit": 0 for name in GROUPS}
+MIDDLE, LAST = int(os.environ["MIDDLE_FIRST"]), int(os.environ["LAST_FIRST"])
+GROUPS = {0: range(MIDDLE), 1: range(MIDDLE, LAST), 2: range(LAST, 64)}
+"""Bit of `commit` -> indices."""
+GROUPS = {bit: indices for bit, indices in GROUPS.items() if indices}
+IDLE = dict.fromkeys(("write_valid", "write_index", "write_data", "commit", "read_valid", "read_index"), 0)
 
 
 async def read(dut: Any, index: int) -> int:
@@ -27,16 +30,14 @@ async def read(dut: Any, index: int) -> int:
     return int(dut.read_data.value)
 
 
-async def write(dut: Any, index: int, value: int, commit: str = "") -> None:
+async def write(dut: Any, index: int, value: int, *commits: int) -> None:
     dut.write_valid.value = 1
     dut.write_index.value = index
     dut.write_data.value = value
-    if commit:
-        getattr(dut, f"{commit}_commit").value = 1
+    dut.commit.value = sum(1 << bit for bit in commits)
     await clocks.tick(dut)
     dut.write_valid.value = 0
-    if commit:
-        getattr(dut, f"{commit}_commit").value = 0
+    dut.commit.value = 0
 
 
 @cocotb.test(timeout_time=2, timeout_unit="ms")
@@ -44,7 +45,7 @@ async def zero_at_power_up_and_between_reads(dut: Any) -> None:
     await clocks.start(dut, **IDLE)
     for index in range(64):
         assert await read(dut, index) == 0
-    await write(dut, 2, 0xFFFFFFFF, "q")
+    await write(dut, 2, 0xFFFFFFFF, 0)
     assert await read(dut, 2) == 0xFFFFFFFF
     await clocks.tick(dut)
     assert int(dut.read_data.value) == 0
@@ -58,27 +59,27 @@ async def frames(dut: Any) -> None:
     # the memory keeps its content over a reset, so this test begins with a frame that fills all of it
     seen: dict[int, int] = {}
     for frame in range(12):
-        cut = rng.choice(["", "", "q", "pose", "all"]) if frame else ""  # abort in this group
-        for name, indices in GROUPS.items():
+        cut = rng.choice([None, None, *GROUPS]) if frame else None  # abort in this group
+        for bit, indices in GROUPS.items():
             order = list(indices)
             rng.shuffle(order)
             fresh = {index: rng.getrandbits(32) for index in order}
             with_last = rng.random() < 0.5
             for position, index in enumerate(order):
-                if cut == name and position > len(order) // 2:
+                if cut == bit and position > len(order) // 2:
                     break
                 last = position == len(order) - 1
-                await write(dut, index, fresh[index], name if last and with_last else "")
+                await write(dut, index, fresh[index], *([bit] if last and with_last else []))
                 probe = rng.choice(order)
                 if seen and not (last and with_last) and rng.random() < 0.3 and probe in seen:
                     assert await read(dut, probe) == seen[probe], f"word {probe} seen before its commit"
-            if cut == name:
+            if cut == bit:
                 break
             if not with_last:
                 await clocks.tick(dut, rng.randrange(3))
-                getattr(dut, f"{name}_commit").value = 1
+                dut.commit.value = 1 << bit
                 await clocks.tick(dut)
-                getattr(dut, f"{name}_commit").value = 0
+                dut.commit.value = 0
             seen.update(fresh)
         for index, value in seen.items():
             assert await read(dut, index) == value, f"frame {frame}, word {index}"
@@ -91,37 +92,36 @@ async def both_at_once(dut: Any) -> None:
     rng = random.Random(9)
     bank = dict.fromkeys(GROUPS, 0)
     memory: dict[tuple[int, int], int] = {}
-    group_of = {index: name for name, indices in GROUPS.items() for index in indices}
+    group_of = {index: bit for bit, indices in GROUPS.items() for index in indices}
     for (
-        name,
+        bit,
         indices,
     ) in GROUPS.items():  # fill both banks: an even number of commits, so the model's banks are right
         for _ in range(2):
             for index in indices:
                 value = rng.getrandbits(32)
-                await write(dut, index, value, name if index == indices[-1] else "")
-                memory[1 - bank[name], index] = value
-            bank[name] ^= 1
+                await write(dut, index, value, *([bit] if index == indices[-1] else []))
+                memory[1 - bank[bit], index] = value
+            bank[bit] ^= 1
     collisions = reads = 0
     for _ in range(4000):
         store, fetch = rng.random() < 0.5, rng.random() < 0.6
         target, source, value = rng.randrange(64), rng.randrange(64), rng.getrandbits(32)
-        commits = [name for name in GROUPS if rng.random() < 0.1]
+        commits = [bit for bit in GROUPS if rng.random() < 0.1]
         dut.write_valid.value = int(store)
         dut.write_index.value = target
         dut.write_data.value = value
         dut.read_valid.value = int(fetch)
         dut.read_index.value = source
-        for name in GROUPS:
-            getattr(dut, f"{name}_commit").value = int(name in commits)
+        dut.commit.value = sum(1 << bit for bit in commits)
         await clocks.tick(dut)
         assert int(dut.read_wait.value) == int(store)
         expected = memory[bank[group_of[source]], source] if fetch and not store else 0
         assert int(dut.read_data.value) == expected
         if store:
             memory[1 - bank[group_of[target]], target] = value
-        for name in commits:
-            bank[name] ^= 1
+        for bit in commits:
+            bank[bit] ^= 1
         collisions += store and fetch
         reads += fetch and not store
     assert collisions > 500 and reads > 500

@@ -3,8 +3,18 @@
 
 from __future__ import annotations
 
+import pytest
+
 from sim.runner import build_and_test, sources
 
 
-def test_weighted_value(simulator: str) -> None:
-    build_and_test("weighted_value", sources("gram"), "weighted_value_bench", simulator=simulator)
+@pytest.mark.parametrize("shift", [1, 0])
+def test_weighted_value(simulator: str, shift: int) -> None:
+    build_and_test(
+        "weighted_value",
+        sources("gram"),
+        "weighted_value_bench",
+        simulator=simulator,
+        parameters={"SHIFT": shift},
+        env={"SHIFT": str(shift)},
+    )

@@ -4,19 +4,17 @@
 from __future__ import annotations
 
 import os
-from dataclasses import replace
 from typing import Any
 
 import cocotb
 import numpy as np
 from relnav.attitude import TURN_SIGNS
-from relnav.driver import Feed, OltaeDriver, beats_of
-from relnav.model.raw import RESULT_WORDS, CoreConfig
+from relnav.driver import Feed
+from relnav.model.raw import CoreConfig
 from relnav.quantise import QuantisedFrame
-from relnav.registers import Oltae
 
-from tb.common import axil, clocks
-from tb.oltae.environment import FULL, Bench, configured, good
+from tb.common import axil, core_tests
+from tb.oltae.environment import FULL, Bench
 from tb.oltae.frames import random_config, random_frame
 
 FRAMES = int(os.environ.get("FRAMES", "40"))
@@ -34,7 +32,7 @@ async def frames_on_every_channel(dut: Any) -> None:
         frame = random_frame(bench.rng, weights=None if FULL else False)
         config = random_config(bench.rng, FULL)
         feed: Feed = "registers" if number % 4 == 1 else "stream"
-        got = await bench.solve(frame, config, feed)
+        got = await bench.solve(frame, feed, config)
         if not got.failed:
             mode = (frame.w is not None, config.reapply, config.covariance)
             cycles.setdefault(mode, set()).add((got.cycles_q, got.cycles_pose, got.cycles_all))
@@ -52,7 +50,7 @@ async def every_turn(dut: Any) -> None:
             cloud, cloud @ np.diag(signs).astype(np.int64) + cloud[:, [1, 2, 0]] // 9, None, 16
         )
         assert (await bench.solve(frame)).turn == turn
-        forbidden = await bench.solve(frame, CoreConfig(forbid_turns=True, covariance=FULL))
+        forbidden = await bench.solve(frame, config=CoreConfig(forbid_turns=True, covariance=FULL))
         assert forbidden.turn == 0
 
 
@@ -68,61 +66,9 @@ async def one_frame_of_a_thousand(dut: Any) -> None:
 
 @cocotb.test()
 async def reading_does_not_disturb(dut: Any) -> None:
-    """Reads at any address while frames come and go; a result word is the old one or the new one."""
-    bench = await Bench(dut, 6).begin()
-    rng = bench.rng
-    results = range(Oltae.Q.ADDRESS, Oltae.Q.ADDRESS + 4 * RESULT_WORDS, 4)
-    others = [
-        r.ADDRESS for r in (Oltae.STATUS, Oltae.POINTS, Oltae.WEIGHT, Oltae.TURN, Oltae.CYCLES_Q, Oltae.FLAGS)
-    ]
-    allowed = [{word} for word in bench.last.result_words()]
-    reads = 0
-
-    async def storm() -> None:
-        nonlocal reads
-        while True:
-            if rng.random() < 0.8:
-                word, _ = await axil.read(bench.bus.axil, rng.choice(results))
-                del word
-            else:
-                await axil.read(bench.bus.axil, rng.choice([*others, rng.randrange(0, 0x1000, 4)]))
-            reads += 1
-
-    async def checked() -> None:
-        nonlocal reads
-        while True:
-            index = rng.randrange(RESULT_WORDS)
-            word, response = await axil.read(bench.bus.axil, results[index])
-            assert response == axil.OKAY and word in allowed[index], f"word {index} is {word:#x}"
-            reads += 1
-
-    stormy = [cocotb.start_soon(storm()), cocotb.start_soon(checked())]
-    for number in range(6):
-        frame = good(rng, 4, FULL and number % 2 == 1)
-        for index, word in enumerate(bench.model.run(frame, CoreConfig(covariance=FULL)).result_words()):
-            allowed[index].add(word)
-        before = reads
-        await bench.solve(frame)
-        assert reads - before > 20
-        for index, word in enumerate(bench.last.result_words()):
-            allowed[index] = {word}
-    for task in stormy:
-        task.cancel()
+    await core_tests.reading_does_not_disturb(await Bench(dut, 6).begin())
 
 
 @cocotb.test()
 async def queued_frames(dut: Any) -> None:
-    """Frames that wait at the stream while the core computes; one is bad, the others are not touched."""
-    bench = await Bench(dut, 7).begin()
-    frames = [good(bench.rng, n) for n in (3, 5, 4)]
-    frames = [replace(frame, frac=-9) for frame in frames]
-    short = beats_of(frames[0])[:6]
-    ticket = await bench.drive(lambda d: configured(d, -9).feed(beats_of(frames[0])))
-    for beats in (beats_of(frames[1]), short, beats_of(frames[2])):
-        await bench.drive(lambda d, b=beats: d.bus.stream(b))
-    while (await bench.drive(OltaeDriver.status)).frame != ticket + len(frames):
-        await clocks.tick(dut)
-    got = await bench.standing()
-    assert got.result_words() == bench.model.run(frames[-1], CoreConfig(covariance=FULL)).result_words()
-    assert (got.points, got.flag_names) == (4, ())
-    assert await bench.flags() == ({"FEW_POINTS"}, set())
+    await core_tests.queued_frames(await Bench(dut, 7).begin())

@@ -97,3 +97,6 @@ def test_only_the_files_that_the_top_needs(tmp_path: Path) -> None:
         file.write_text(text)
     assert [file.stem for file in reachable("top", files)] == ["leaf", "middle", "top"]
     assert reachable("nowhere", files) == files
+    files[3].write_text("`CORE u(); `CORES v();")
+    assert [file.stem for file in reachable("top", files)] == ["top"]
+    assert [file.stem for file in reachable("top", files, {"CORE": "middle"})] == ["leaf", "middle", "top"]

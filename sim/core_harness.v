@@ -1,16 +1,14 @@
 // SPDX-License-Identifier: Apache-2.0
-// Simulation only: oltae_top with an AXI-Stream source that plays frames from a file, so that Python is awake only for the registers.
+// Simulation only: a core with an AXI-Stream source that plays frames from a file, so that Python is awake only for the registers.
+//
+// The core is the module `RELNAV_TOP with the parameters `RELNAV_PARAMETERS, as in #(.WEIGHTED(0)) or empty; all cores have the same ports.
 //
 // A change of `go` opens the file of the plusarg +beats=FILE, one beat a line: hexadecimal {last, 64 bits of data}. All its beats are sent,
 // then `sent` takes the value of `go`. Before each beat the source pauses with probability gap / 256 a clock (0: never).
 `resetall
 `default_nettype none
 
-module oltae_harness #(
-    parameter WEIGHTED   = 1,
-    parameter COVARIANCE = 1,
-    parameter REAPPLY    = 1
-) (
+module core_harness (
     input  wire        clk,
     input  wire        rst,
     // AXI4-Lite of the core
@@ -43,11 +41,7 @@ module oltae_harness #(
   reg s_axis_tvalid, s_axis_tlast;
   wire s_axis_tready;
 
-  oltae_top #(
-      .WEIGHTED(WEIGHTED),
-      .COVARIANCE(COVARIANCE),
-      .REAPPLY(REAPPLY)
-  ) top (
+  `RELNAV_TOP `RELNAV_PARAMETERS top (
       .clk(clk),
       .rst(rst),
       .s_axil_awaddr(s_axil_awaddr),
