@@ -14,24 +14,27 @@ module to_binary32 (
 );
   reg zero, negative;
   reg [34:0] magnitude;
-  reg signed [12:0] biased;
+  // exponent without and with a carry out of rounding, and whether binary32 has it: {under, over, biased}
+  reg [9:0] plain, carried;
 
   // magnitude[33:10] are the 24 bits kept; 2^34 itself keeps 2^24 and needs no rounding.
   wire round_up = magnitude[9] & (|magnitude[8:0] | magnitude[10]);
   wire [24:0] rounded = magnitude[34:10] + {24'd0, round_up};
   // A carry out of the 24 bits leaves zeros below: only the exponent moves.
-  wire signed [12:0] exponent = biased + {12'd0, rounded[24]};
-  wire underflow = exponent[12] | ~|exponent[11:0];
-  wire overflow = ~exponent[12] & (|exponent[11:8] | &exponent[7:0]);
+  wire underflow, overflow;
+  wire [7:0] exponent;
+  assign {underflow, overflow, exponent} = rounded[24] ? carried : plain;
+  wire signed [11:0] value_exponent = value[46:35];
 
   always @(posedge clk) begin
     zero      <= value[47];
     negative  <= value[34];
-    biased    <= $signed({value[46], value[46:35]}) + 13'sd160;  // 33 + 127
+    plain     <= {value_exponent < -12'sd159, value_exponent > 12'sd94, value[42:35] + 8'd160};  // 160 = 33 + 127
+    carried   <= {value_exponent < -12'sd160, value_exponent > 12'sd93, value[42:35] + 8'd161};
     magnitude <= (value[34:0] ^ {35{value[34]}}) + {34'd0, value[34]};  // one LUT a bit
 
     binary32[31] <= negative & ~zero;
-    binary32[30:23] <= (exponent[7:0] | {8{overflow}}) & {8{~zero & ~underflow}};
+    binary32[30:23] <= (exponent | {8{overflow}}) & {8{~zero & ~underflow}};
     // constants for a whole field come from the flip-flops' synchronous reset
     if (zero | underflow | overflow) binary32[22:0] <= 23'd0;
     else binary32[22:0] <= rounded[22:0];

@@ -238,7 +238,7 @@ module rates_engine (
   // ------------------------------------------------------------------ what acts later: entry n - 1 of a pipe is cycle n
   reg [4:0] product_writes, subtracts;
   reg [2:0] product_addresses[1:5];
-  reg [6:0] c_places[1:5];
+  reg [6:0] c_places[1:4];
   reg [10:0] sum_places[1:9];  // {lanes, address}
   always @(posedge clk) begin
     product_writes       <= {product_writes[3:0], product_write};
@@ -246,10 +246,8 @@ module rates_engine (
     product_addresses[1] <= product_address;
     c_places[1]          <= {c_bank, c_address};
     sum_places[1]        <= {sum_lanes, sum_address};
-    for (n = 2; n <= 5; n = n + 1) begin
-      product_addresses[n] <= product_addresses[n-1];
-      c_places[n]          <= c_places[n-1];
-    end
+    for (n = 2; n <= 4; n = n + 1) c_places[n] <= c_places[n-1];
+    for (n = 2; n <= 5; n = n + 1) product_addresses[n] <= product_addresses[n-1];
     for (n = 2; n <= 9; n = n + 1) sum_places[n] <= sum_places[n-1];
   end
 
@@ -274,8 +272,8 @@ module rates_engine (
           .y_common(y_common),
           .product_write(product_writes[4]),
           .product_address(product_addresses[5]),
-          .c_bank(c_places[5][6:5]),
-          .c_address(c_places[5][4:0]),
+          .c_bank(c_places[4][6:5]),
+          .c_address(c_places[4][4:0]),
           .subtract(subtracts[4]),
           .sum_write(sum_places[9][5+lane]),
           .sum_address(sum_places[9][4:0])

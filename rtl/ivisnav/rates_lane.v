@@ -5,7 +5,7 @@
 //
 // Memories: A the row as the moments gave it, S what the program makes of it, P products kept for later.
 //
-// cycle 0 own read, for the bus | 1 x read, y chosen | 2 in the multiplier | 5 product; c read, P written at its end
+// cycle 0 own read, for the bus | 1 x read, y chosen | 2 in the multiplier | 4 c read | 5 product; P written at its end
 //       | 9 sum; S written at its end
 // What comes with a later cycle is delayed by the engine.
 `resetall
@@ -25,11 +25,12 @@ module rates_lane (
     input  wire [ 4:0] x_address,
     input  wire        y_own,
     input  wire [31:0] y_common,
+    // cycle 4
+    input  wire [ 1:0] c_bank,
+    input  wire [ 4:0] c_address,
     // cycle 5
     input  wire        product_write,
     input  wire [ 2:0] product_address,
-    input  wire [ 1:0] c_bank,
-    input  wire [ 4:0] c_address,
     input  wire        subtract,
     // cycle 9
     input  wire        sum_write,
@@ -67,13 +68,14 @@ module rates_lane (
   wire [31:0] x_moment = x_moments[x_address[2:0]];
   wire [31:0] x_product = products[x_address[2:0]];
   wire [31:0] x = x_bank == S ? x_sum : x_bank == A ? x_moment : x_bank == P ? x_product : ONE;
-  wire [31:0] c = c_bank == S ? c_sums[c_address] : c_bank == A ? c_moments[c_address[2:0]] : 32'd0;
+  wire [31:0] c_4 = c_bank == S ? c_sums[c_address] : c_bank == A ? c_moments[c_address[2:0]] : 32'd0;
 
-  reg [31:0] x_2, y_2;
+  reg [31:0] x_2, y_2, c;
   always @(posedge clk) begin
     own <= own_bank ? own_moments[own_address[2:0]] : own_sums[own_address];
     x_2 <= x;
     y_2 <= y_own ? own : y_common;
+    c   <= c_4;
   end
 
   float_multiply multiplier (

@@ -29,7 +29,7 @@ from relnav.model.rates_program import (
 
 # Cycles after its issue in which an operation reads (its bus operand at once)
 FACTOR = 1  # x, and what of y is special
-ADDEND = 5  # c, when the product is there
+ADDEND = 4  # c, a clock before the product is there
 PLACE = -1  # the index of an indexed bus operand goes into the address before
 # Issue to first cycle in which what was written can be read
 PRODUCT = 6  # P: own, bus, float_multiply, the memory

@@ -56,6 +56,7 @@ class Lane:
     owns: list[int | None] = field(default_factory=list)
     """Of each operation, by clock."""
     operands: dict[int, tuple[int, int]] = field(default_factory=dict)
+    addends: dict[int, int] = field(default_factory=dict)
     sums: dict[int, int] = field(default_factory=dict)
 
     def read(self, place: tuple[Bank, int], none: int) -> int:
@@ -79,12 +80,12 @@ class Lane:
             self.operands[now - FACTOR] = self.read(earlier.x, ONE), y
         writes: list[tuple[Bank, int, int]] = []
         if now >= ADDEND:
-            earlier = steps[now - ADDEND]
-            product = calculated("*", *self.operands[now - ADDEND])
-            c = self.read(earlier.c, 0)
-            self.sums[now - ADDEND] = calculated("-" if earlier.subtract else "+", c, product)
+            self.addends[now - ADDEND] = self.read(steps[now - ADDEND].c, 0)
+        if (number := now - WRITE_PRODUCT) >= 0:
+            earlier = steps[number]
+            product = calculated("*", *self.operands[number])
+            self.sums[number] = calculated("-" if earlier.subtract else "+", self.addends[number], product)
             if earlier.product is not None:
-                assert ADDEND == WRITE_PRODUCT
                 writes.append((Bank.P, earlier.product, product))
         if now >= WRITE_SUM:
             earlier = steps[now - WRITE_SUM]
@@ -103,13 +104,14 @@ def words(steps: Sequence[Step], looks: Sequence[bool]) -> list[int]:
     for now, (step, look) in enumerate(zip(steps, looks, strict=True)):
         factor = steps[now - FACTOR] if now >= FACTOR else Step()
         addend = steps[now - ADDEND] if now >= ADDEND else Step()
+        product = steps[now - WRITE_PRODUCT] if now >= WRITE_PRODUCT else Step()
         last = steps[now - WRITE_SUM] if now >= WRITE_SUM else Step()
         address, moment = step.moment or (0, 0)
         fields = [(int(look), 1), (int(step.moment is not None), 1), (address, 3), (moment, 32)]
         fields += [(int(step.own[0] == Bank.A), 1), (step.own[1], 5), (factor.x[0], 2), (factor.x[1], 5)]
         fields += [(int(factor.y is None), 1), (factor.y or 0, 32)]
-        fields += [(int(addend.product is not None), 1), (addend.product or 0, 3)]
-        fields += [(addend.c[0], 2), (addend.c[1], 5), (int(addend.subtract), 1)]
+        fields += [(int(product.product is not None), 1), (product.product or 0, 3)]
+        fields += [(addend.c[0], 2), (addend.c[1], 5), (int(product.subtract), 1)]
         fields += [(int(last.dest is not None), 1), (last.dest or 0, 5)]
         stimulus.append(pack(fields))
     return stimulus
