@@ -268,6 +268,11 @@ def ivisnav_numbers(manoeuvre: Json, syn: Json, bench: Json) -> str:
     return "\n".join(["| | paper | here |", "|---|---|---|", *lines])
 
 
+def explicit(cell: Json) -> str:
+    """The explicit inverse's error on the same frames, where it means something."""
+    return f"; explicit inverse {cell['explicit']:.0e}" if cell["explicit"] is not None else ""
+
+
 def rate_bench_rows(rates: Json) -> list[tuple[str, str, str]]:
     """Rings and random H of bench/rates.py."""
     rows = []
@@ -288,7 +293,7 @@ def rate_bench_rows(rates: Json) -> list[tuple[str, str, str]]:
         (
             f"random H, cond(H) {cell['from']:g} to {cell['to']:g}: error, max of {cell['frames']}",
             "not given",
-            f"{cell['error']:.1e} ({cell['refused']} refused; explicit inverse {cell['explicit']:.0e})",
+            f"{cell['error']:.1e} ({cell['refused']} refused{explicit(cell)})",
         )
         for cell in rates["random"]
     ]

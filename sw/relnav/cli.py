@@ -41,6 +41,9 @@ def main(arguments: Sequence[str] | None = None) -> int:
     """Run one command; returns the exit code."""
     parser = _parser()
     options = parser.parse_args(arguments)
+    if sys.stdout is None:
+        print("relnav: standard output is closed", file=sys.stderr)
+        return EXIT_BAD_INPUT
     try:
         code: int = options.run(options)
         sys.stdout.flush()
@@ -49,8 +52,17 @@ def main(arguments: Sequence[str] | None = None) -> int:
         print(f"relnav: {error}", file=sys.stderr)
         return EXIT_BAD_INPUT
     except BrokenPipeError:  # `relnav pose ... | head`: nobody reads on, and nobody is to be told
-        os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())
+        _discard_output()
         return 0
+    except OSError as error:  # a full disk
+        print(f"relnav: the result could not be written: {error.strerror or error}", file=sys.stderr)
+        _discard_output()
+        return EXIT_BAD_INPUT
+
+
+def _discard_output() -> None:
+    """What is still buffered goes nowhere, so that the interpreter's end has nothing to complain about."""
+    os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())
 
 
 def pose_command(options: argparse.Namespace) -> int:
@@ -127,8 +139,10 @@ def _variance(sigma_a: float | None, sigma_b: float | None) -> float:
     if sigma_a is None and sigma_b is None:
         return 0.0
     variance = (sigma_a or 0.0) ** 2 + (sigma_b or 0.0) ** 2
-    if variance == 0.0:
+    if not sigma_a and not sigma_b:
         raise RelnavError("--sigma-a and --sigma-b must not both be 0")
+    if variance == 0.0:
+        raise RelnavError("--sigma-a and --sigma-b are too small: their squares leave double's range")
     return variance
 
 
@@ -224,11 +238,18 @@ def _sigma(text: str) -> float:
     return value
 
 
+# argparse names a type by its __name__ where int() or float() refuses the text
+_sigma.__name__ = "number"
+
+
 def _count(text: str) -> int:
     value = int(text)
     if value < 1:
         raise argparse.ArgumentTypeError(f"{text} is not a whole number >= 1")
     return value
+
+
+_count.__name__ = "whole number"
 
 
 if __name__ == "__main__":

@@ -184,7 +184,10 @@ def _lines(source: str, data: bytes) -> tuple[list[str], npt.NDArray[np.int64]]:
 
 def _header(source: str, line: str, number: int, layout: Layout) -> list[str]:
     """Column names; the layout's must all be there, none of ours twice; other columns are ignored."""
-    columns = [field.strip() for field in next(csv.reader([line]))]
+    try:
+        columns = [field.strip() for field in next(csv.reader([line]))]
+    except csv.Error as error:
+        raise InputError(f"{source}: header (line {number}): {error}") from None
     missing = [name for name in layout.columns if name not in columns]
     if missing:
         raise InputError(f"{source}: header (line {number}): missing column {', '.join(missing)}")
@@ -253,7 +256,9 @@ def _read_npz(source: str, file: io.BytesIO, layout: Layout) -> list[Records]:
     except InputError:
         raise
     except Exception as error:  # a damaged archive raises from zipfile, zlib, struct, ast and numpy alike
-        raise InputError(f"{source}: not a readable .npz: {error}") from None
+        # numpy's advice for what is no archive at all is to unpickle it
+        reason = "it is no zip archive" if "pickle" in str(error) else error
+        raise InputError(f"{source}: not a readable .npz: {reason}") from None
     for name in layout.arrays:
         if name not in arrays:
             raise InputError(f"{source}: missing array {name}")
@@ -297,7 +302,8 @@ def _array(name: str, values: npt.ArrayLike, shape: tuple[int | None, ...], pref
         raise InputError(
             f"{prefix}{name} has shape {array.shape}, expected ({text}{',' if len(shape) == 1 else ''})"
         )
-    return array.astype(np.float64)
+    with np.errstate(over="ignore"):  # beyond double's range: refused as infinite
+        return array.astype(np.float64)
 
 
 # ---- both

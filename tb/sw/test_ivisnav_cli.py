@@ -185,3 +185,16 @@ def test_from_python() -> None:
             relnav.rates(r, p, dphi, **{"f0": 20e6, "dt": 0.01, "backend": "double", **arguments})  # type: ignore[arg-type]
     with pytest.raises(BackendError):
         relnav.rates(r, p, dphi, 20e6, 0.01, backend="abacus")
+
+
+@pytest.mark.parametrize(("redirect", "words"), [(">/dev/full", "could not be written"), (">&-", "closed")])
+def test_output_that_cannot_be_written(redirect: str, words: str) -> None:
+    command = f"{sys.executable} -m relnav.cli rates {EXAMPLE} --f0 20e6 --dt .01 {redirect}"
+    done = subprocess.run(["bash", "-c", command], capture_output=True, text=True, check=False)
+    assert done.returncode == 2
+    assert words in done.stderr and len(done.stderr.splitlines()) == 1
+
+
+def test_sigma_whose_square_vanishes_is_refused(capsys: pytest.CaptureFixture[str]) -> None:
+    _, err = run(capsys, EXAMPLE, *SETTINGS, "--sigma", "1e-200", check=2)
+    assert "too small" in err

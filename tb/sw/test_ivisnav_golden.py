@@ -144,7 +144,7 @@ def test_covariance_is_the_errors() -> None:
 
 def test_no_degrees_of_freedom_no_covariance() -> None:
     result = golden.estimate(equations(observed(alternate_ring(0.5), 2.0, np.ones(6)), F0, DT))
-    assert result.cov is not None and result.to_json()["cov"] is None
+    assert result.cov is None and result.to_json()["cov"] is None
     assert result.to_json()["rss"] == pytest.approx(0.0, abs=1e-25)
 
 

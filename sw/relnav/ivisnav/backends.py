@@ -12,7 +12,7 @@ from ..backends import check_backend, check_rtl, part
 from ..errors import BackendError, InputError
 from ..model.raw import variance_word
 from . import golden
-from .quantise import QuantisedRows, equations, metres_per_second, quantise_equations
+from .quantise import QuantisedRows, equations, is_number, metres_per_second, quantise_equations
 from .raw import FLAG_BITS, RawRates, raw_to_result
 from .result import RatesResult
 from .rows import RateFrame
@@ -64,11 +64,14 @@ def unit_variance(frames: Sequence[RateFrame], f0: float, dt: float, sigma: floa
     whitened = [frame for frame in frames if frame.sigma is not None]
     if sigma is None:
         return 1.0 if whitened else 0.0
-    if not (math.isfinite(sigma) and sigma > 0.0):
+    if not (is_number(sigma) and math.isfinite(sigma) and sigma > 0.0):
         raise InputError(f"sigma = {sigma!r} is not a finite number > 0")
     if whitened:
         raise InputError(f"{whitened[0].origin}: has a covariance, which excludes a sigma at unit weight")
-    return (factor * sigma) ** 2
+    variance = (factor * sigma) ** 2
+    if variance == 0.0:  # which would leave it to the residuals
+        raise InputError(f"sigma = {sigma!r} is too small: its square leaves double's range")
+    return variance
 
 
 def _simulated(

@@ -96,12 +96,13 @@ def estimate(e: Equations, *, variance: float = 0.0) -> RatesResult:
     solution = orthogonal(e)
     used = int(np.count_nonzero(weights_of(e)))
     scaled = variance * e.weight_scale if variance else unit_variance(solution.rss, used)
+    cov = scaled * solution.inverse
     return RatesResult(
         frame=name,
         n=e.n,
         v=solution.x[:3],
         omega=solution.x[3:],
-        cov=scaled * solution.inverse,
+        cov=cov if np.isfinite(cov).all() else None,
         rss=solution.rss / e.weight_scale,
         condition=cond,
     )

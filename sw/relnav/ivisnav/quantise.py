@@ -73,12 +73,22 @@ class QuantisedRows:
         )
 
 
+def is_number(value: object) -> bool:
+    """Whether it is one real number that a double can hold."""
+    try:
+        return isinstance(value, (int, float, np.integer, np.floating)) and isinstance(float(value), float)
+    except OverflowError:
+        return False
+
+
 def metres_per_second(f0: float, dt: float) -> float:
     """c / (4 pi f0 dt): range rate of one radian an interval (Eq. 3). f0 in Hz, dt in s.
 
     Raises InputError for what is not positive and finite.
     """
     for name, value in (("f0", f0), ("dt", dt)):
+        if not is_number(value):
+            raise InputError(f"{name} = {value!r} is not a number")
         if not (math.isfinite(value) and value > 0.0):
             raise InputError(f"{name} = {value!r} is not a finite number > 0")
     factor = SPEED_OF_LIGHT / (4.0 * math.pi) / f0 / dt

@@ -10,6 +10,8 @@ from __future__ import annotations
 from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
+import numpy as np
+
 from relnav.model.raw import floats_of, symmetric, word_to_float
 from relnav.registers import Ivisnav
 
@@ -78,12 +80,13 @@ def raw_to_result(raw: RawRates, name: str | int, rows: QuantisedRows) -> RatesR
     cycles = None
     if raw.cycles_rates is not None and raw.cycles_all is not None:
         cycles = {"rates": raw.cycles_rates, "all": raw.cycles_all}
+    cov = symmetric(raw.words[first : first + count], 6)
     return RatesResult(
         frame=name,
         n=raw.n,
         v=found["v"],
         omega=found["omega"],
-        cov=symmetric(raw.words[first : first + count], 6),
+        cov=cov if np.isfinite(cov).all() else None,
         rss=float(found["rss"][0]) / rows.weight_scale,
         flags=raw.flag_names,
         cycles=cycles,

@@ -125,7 +125,10 @@ def variance_word(variance: float, weight_scale: float = 1.0) -> int:
     with np.errstate(over="ignore", under="ignore"):
         rounded = np.float32(value)
     if not (np.isfinite(rounded) and rounded >= np.finfo(np.float32).tiny):
-        raise InputError(f"sigma^2 * weight scale = {value!r} is not a normal binary32 number")
+        raise InputError(
+            f"the variance at unit integer weight, {value!r}, is not a normal binary32 number: "
+            "sigma, or a covariance, is too large or too small"
+        )
     return float_to_word(float(rounded))
 
 

@@ -133,7 +133,7 @@ def percent_figure(solved: RateSolutions) -> Picture:
         "Deviation from double precision on the same rows. The paper's pipeline (Q15.16 products, an "
         "explicit single-precision inverse, Q15.16 again) lives by the scale of the phases; the same inverse "
         "on exact sums shows what the order of operations alone costs; this core factorises, solves and "
-        "refines once with an exact residual."
+        "refines twice with exact residuals."
     )
     return Picture("fig07_percent", "Percentage errors", text, "7", png(drawn))
 
