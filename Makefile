@@ -14,10 +14,16 @@ LANDING_ARGS ?=
 PROXIMITY_ARGS ?=
 # of `make waves`
 CORE ?= oltae_top
+# of `make mutate`: MODULE="float_add mux4"; MUTANTS=100 of each, or all
+MODULE ?=
+MUTANTS ?=
 # --quick: a few cases, nothing kept
 BENCH_ARGS ?=
 
-.PHONY: help setup sim sim-ivisnav test waves synth timing bench docs lint format clean distclean
+# modules to prove, all by default
+FORMAL_ARGS ?=
+
+.PHONY: help setup sim sim-ivisnav test soak waves synth timing bench formal docs mutate lint format clean distclean
 
 help: ## this list
 	@awk -F ':.*## ' '/^[a-z%<>-]+:.*## / { printf "  make %-14s %s\n", $$1, $$2 }' $(MAKEFILE_LIST)
@@ -39,6 +45,10 @@ sim-%: setup ## the testbenches of one module or folder of tb/, e.g. sim-centrin
 	if [ -z "$$folders" ]; then echo "make: no folder of tb/ is called $*" >&2; exit 2; fi; \
 	$(BIN)/python -m pytest $(PYTEST_ARGS) $$folders
 
+soak: setup ## random frames, accesses, resets against the model (MINUTES=10 SEED= CORE=both SIMULATOR=verilator EPISODE=)
+	@$(BIN)/python -m tb.soak.soak --jobs $(JOBS) $(if $(MINUTES),--minutes $(MINUTES)) $(if $(SEED),--seed $(SEED)) \
+	  $(if $(filter file,$(origin CORE)),,--core $(CORE)) $(if $(SIMULATOR),--simulator $(SIMULATOR)) $(if $(EPISODE),--episode $(EPISODE))
+
 waves: setup ## open GTKWave on the last run of CORE=oltae_top or ivisnav_top (without a screen: write the FST)
 	@sim/waves.sh $(CORE)
 
@@ -55,6 +65,12 @@ docs: setup ## fill the tables of README and docs/ from the last runs (after mak
 bench: setup ## accuracy, 3-sigma bounds and flags of the model, into bench/results.json (BENCH_ARGS=--quick)
 	@$(BIN)/python -m bench $(BENCH_ARGS)
 
+formal: setup ## proofs with SymbiYosys, and broken copies that must fail (FORMAL_ARGS='axil_slave srt_digit')
+	@$(BIN)/python -m formal $(FORMAL_ARGS)
+
+mutate: setup ## put errors into the netlists, the tests must fail: a sample, 10 min (MODULE=..., MUTANTS=100 or all)
+	@$(BIN)/python -m mutate --jobs $(JOBS) $(if $(MODULE),--module "$(MODULE)") $(if $(MUTANTS),--mutants $(MUTANTS))
+
 lint: setup ## ruff, mypy, verible, Verilator on every module alone, Icarus, Yosys, shellcheck
 	@scripts/lint.sh
 
@@ -63,7 +79,7 @@ format: setup ## format the Python files
 
 clean: ## remove what was built; .venv stays
 	rm -rf build out .pytest_cache .mypy_cache .ruff_cache
-	find bench sim sw syn tb scripts -name __pycache__ -prune -exec rm -rf {} +
+	find bench formal mutate sim sw syn tb scripts -name __pycache__ -prune -exec rm -rf {} +
 
 distclean: clean ## remove .venv too
 	rm -rf .venv sw/*.egg-info

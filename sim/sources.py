@@ -3,6 +3,7 @@
 
 from __future__ import annotations
 
+import os
 import re
 from collections.abc import Mapping, Sequence
 from pathlib import Path
@@ -24,8 +25,10 @@ def reachable(top: str, files: Sequence[Path], defines: Mapping[str, object] | N
     """Those of `files` that module `top` is made of, in the same order; all where no file has its name.
 
     Any mention of a module's name outside comments counts, which errs on the side of a file too many; one
-    through a macro of `defines` too.
+    through a macro of `defines` too. RELNAV_REPLACE="module=file" puts another file in a module's place.
     """
+    replaced = dict(pair.split("=") for pair in os.environ.get("RELNAV_REPLACE", "").split())
+    files = [Path(replaced.get(file.stem, file)) for file in files]
     by_name = {file.stem: file for file in files}
     if top not in by_name:
         return list(files)

@@ -99,11 +99,13 @@ def read_records(path: str | Path, layout: Layout) -> list[Records]:
     source = one_line(path)
     try:
         data = path.read_bytes()
+        if data[:2] == b"PK" or path.suffix.lower() == ".npz":
+            return _read_npz(source, io.BytesIO(data), layout)
+        return _read_csv(source, data, layout)
     except OSError as error:
         raise InputError(f"{source}: cannot be read: {error.strerror or error}") from None
-    if data[:2] == b"PK" or path.suffix.lower() == ".npz":
-        return _read_npz(source, io.BytesIO(data), layout)
-    return _read_csv(source, data, layout)
+    except MemoryError:
+        raise InputError(f"{source}: too large for the memory there is") from None
 
 
 def make_records(

@@ -457,7 +457,7 @@ class Oltae:
         FIELDS = {"FRAC": FRAC}
 
     class VARIANCE(Register):
-        """Variance. Locked while busy. sa^2 + sb^2 at unit weight, binary32; 0: use rss / (3n - 6), n counting the points of positive weight."""
+        """Variance. Locked while busy. sa^2 + sb^2 at unit weight, binary32, its sign ignored; 0: use rss / (3n - 6), n counting the points of positive weight."""
 
         ADDRESS = 0x02C
         ACCESS = "rw"

@@ -66,7 +66,8 @@ class OltaeCore:
         values += [(8 * axis + pose.KIND_MA, first[2 * axis], -frame.frac) for axis in range(3)]
         values += [(pose.ITEM_MB + axis, first[2 * axis + 1], -frame.frac) for axis in range(3)]
         values.append((pose.ITEM_COUNT, gram.used_count, 0))
-        values.append((pose.ITEM_VARIANCE, *from_binary32(config.variance_word(frame.weight_scale))))
+        variance = config.variance_word(frame.weight_scale) & 0x7FFFFFFF  # the hardware leaves its sign out
+        values.append((pose.ITEM_VARIANCE, *from_binary32(variance)))
         for address, value, scale in values:
             yield address, normaliser.run(value, False, scale), False
 

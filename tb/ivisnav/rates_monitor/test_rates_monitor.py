@@ -118,10 +118,12 @@ class Play:
         self.stimulus.append(pack([*head, (bus[0], 3), (bus[1], 3), (bus[2], 32)]))
         self.monitor.clock(clear, diagonal, bus)
 
-    def frame(self, diagonal: list[int]) -> None:
-        """Clear, and the moments' diagonal."""
+    def frame(self, diagonal: list[int], gaps: random.Random | None = None) -> None:
+        """Clear, and the moments' diagonal, with idle clocks between where `gaps` is given."""
         self.clock(clear=True)
         for place, moment in enumerate(diagonal):
+            while gaps is not None and gaps.random() < 0.3:
+                self.clock()
             self.clock(diagonal=(place, moment))
 
     def rest(self) -> None:
@@ -173,7 +175,7 @@ def test_largest_elements(simulator: str, tmp_path: Path) -> None:
         few = rng.sample(words, 2) if number % 2 else words
         diagonal = [rng.choice(few) for _ in LANES]
         inverse = [rng.choice(few) | rng.choice([0, SIGN]) for _ in LANES]
-        play.frame(diagonal)
+        play.frame(diagonal, rng)
         assert play.monitor.moment_place == diagonal.index(max(diagonal))
         for lane in reversed(LANES):
             while rng.random() < 0.2:

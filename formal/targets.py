@@ -1,0 +1,510 @@
+# SPDX-License-Identifier: Apache-2.0
+"""What is proved, and the faults that each proof must find.
+
+A fault is an edit of the RTL as it stands (an edit that no longer fits is an error), the task that must fail
+on it, and the assertion that must be among those that fail.
+"""
+
+from __future__ import annotations
+
+from formal.runner import Broken, Group
+
+SLAVE = "axi/axil_slave.v"
+LOADER = "axi/frame_loader.v"
+STATE = "axi/frame_state.v"
+FILE = "axi/core_registers.v"
+OLTAE = "axi/oltae_registers.v"
+IVISNAV = "axi/ivisnav_registers.v"
+DIGIT = "arith/srt_digit.v"
+RECIPROCAL = "arith/reciprocal.v"
+STORE = "axi/result_store.v"
+CELL = "gram/mac_cell.v"
+RUN = "gram/sign_run.v"
+NORMALISER = "gram/normaliser.v"
+RECOMBINE = "gram/recombine.v"
+
+
+def faults(task: str, file: str, *edits: tuple[str, str, str]) -> tuple[Broken, ...]:
+    """Broken copies of one file for one task; an edit is (assertion that must fail, old text, new text)."""
+    return tuple(Broken(task, file, old, new, label) for label, old, new in edits)
+
+
+GO = "wire write_go = address_full && data_full && !s_axil_bvalid;"
+IDLE_AGAIN = "s_axil_arready <= !(accept || issue || capture || (s_axil_rvalid && !s_axil_rready));"
+
+SLAVE_PROTOCOL = faults(
+    "protocol_bmc",
+    SLAVE,
+    ("b_stays", "end else if (s_axil_bready) begin", "end else begin"),
+    ("b_needs_data", GO, "wire write_go = address_full && !s_axil_bvalid;"),
+    ("b_needs_address", GO, "wire write_go = data_full && !s_axil_bvalid;"),
+    ("write_once", GO, "wire write_go = address_full && data_full;"),
+    ("b_comes", GO, "wire write_go = address_full && data_full && !s_axil_bvalid && s_axil_bready;"),
+    (
+        "b_not_early",
+        "if (write_go) begin",
+        "if (address_full && data_full || address_full && s_axil_wvalid) begin",
+    ),
+    ("one_address_waits", "s_axil_awready <= !next_address_full;", "s_axil_awready <= !address_full;"),
+    ("one_data_waits", "s_axil_wready  <= !next_data_full;", "s_axil_wready  <= !data_full;"),
+    (
+        "awready_when_free",
+        "s_axil_awready <= !next_address_full;",
+        "s_axil_awready <= !next_address_full && !next_data_full;",
+    ),
+    (
+        "wready_when_free",
+        "s_axil_wready  <= !next_data_full;",
+        "s_axil_wready  <= next_address_full && !next_data_full;",
+    ),
+    ("b_error", "write_failed  <= write_error || !write_aligned;", "write_failed  <= write_error;"),
+    ("write_once", "assign write_valid  = write_go && write_aligned;", "assign write_valid  = write_go;"),
+    ("strobe_handed_on", "write_strobe <= s_axil_wstrb;", "write_strobe <= 4'hF;"),
+    ("write_handed_on", "if (s_axil_wready) begin", "if (s_axil_wvalid) begin"),
+    ("b_reset", "s_axil_wready  <= 1'b0;\n      s_axil_bvalid  <= 1'b0;", "s_axil_wready  <= 1'b0;"),
+    ("r_stays", "else if (s_axil_rready) s_axil_rvalid <= 1'b0;", "else s_axil_rvalid <= 1'b0;"),
+    ("r_stays", "if (capture) s_axil_rdata <= read_data;", "s_axil_rdata <= read_data;"),
+    (
+        "r_needs_request",
+        "issue   <= accept || (issue && read_wait);",
+        "issue   <= s_axil_arvalid || (issue && read_wait);",
+    ),
+    ("arready_when_free", IDLE_AGAIN, IDLE_AGAIN.replace("capture || ", "")),
+    ("arready_comes", IDLE_AGAIN, IDLE_AGAIN.replace("issue ||", "issue || !s_axil_arvalid ||")),
+    ("r_answer", "if (go) read_failed <= read_error || !read_aligned;", "if (go) read_failed <= read_error;"),
+    (
+        "r_comes",
+        "if (capture) s_axil_rvalid <= 1'b1;",
+        "if (capture && s_axil_rready) s_axil_rvalid <= 1'b1;",
+    ),
+    ("read_once", "assign read_valid   = issue && read_aligned;", "assign read_valid   = issue;"),
+    ("read_once", "issue   <= accept || (issue && read_wait);", "issue   <= accept;"),
+    ("read_handed_on", "if (s_axil_arready) read_address", "if (s_axil_arvalid) read_address"),
+    ("r_reset", "capture        <= 1'b0;\n      s_axil_rvalid  <= 1'b0;", "capture        <= 1'b0;"),
+)
+
+SLAVE_PINS = (
+    Broken(
+        "dependence_bmc",
+        SLAVE,
+        f"    {IDLE_AGAIN}\n    if (rst) begin\n      s_axil_arready <= 1'b0;",
+        "    if (rst) begin",
+        "ready_valid_registered",
+        also=(
+            (
+                "  wire go = issue && !read_wait;",
+                "  wire go = issue && !read_wait;\n"
+                "  always @* s_axil_arready = !(issue || capture || (s_axil_rvalid && !s_axil_rready));",
+            ),
+        ),
+    ),
+)
+
+READY = "wire ready = (to_array && beat_ready) || (taken_here && !soft_reset);"
+VALID = "assign beat_valid = to_array && valid;"
+
+STORE_FAULTS = faults(
+    "middle_bmc",
+    STORE,
+    ("waits_for_writes", "assign read_wait = write_valid;", "assign read_wait = write_valid && read_valid;"),
+    ("committed_read", "{!write_bank, write_index}", "{write_bank, write_index}"),
+    ("committed_read", ": read_index < LAST_FIRST ?", ": read_index < LAST_FIRST - 1 ?"),
+    ("committed_read", "write_index < LAST_FIRST ? bank[1]", "write_index < LAST_FIRST ? bank[0]"),
+    ("silent", "read_valid && !write_valid ?", "!write_valid ?"),
+    ("reset_bank", "bank <= rst ? 3'd0 : bank ^ commit;", "bank <= bank ^ commit;"),
+)
+
+LOADER_FRONT = (
+    *faults(
+        "front_bmc",
+        LOADER,
+        ("no_beat_lost", READY, "wire ready = to_array || (taken_here && !soft_reset);"),
+        ("beats_add_up", READY, "wire ready = to_array || (taken_here && !soft_reset);"),
+        (
+            "no_beat_twice",
+            READY,
+            "wire ready = (to_array && beat_ready && !last) || (taken_here && !soft_reset);",
+        ),
+        ("no_beat_made", VALID, "assign beat_valid = to_array && (valid || push_valid);"),
+        ("beat_stays", VALID, "assign beat_valid = to_array && valid && !weighted;"),
+        ("beat_unchanged", "assign beat_data = from_push ?", "assign beat_data = push_valid ?"),
+        ("beat_in_place", "beat <= closing && !beat_weighted ?", "beat <= closing ?"),
+        ("weight_right", "weight <= beat_data[15:0];", "weight <= {1'b0, beat_data[14:0]};"),
+        ("mode_right", "assign beat_weighted = mode;", "assign beat_weighted = weighted;"),
+        ("opens", "assign clear = state == IDLE && accept &&", "assign clear = state == IDLE &&"),
+        ("clears", "assign frame_start = clear;", "assign frame_start = clear && !push_valid;"),
+        ("closed_takes_none", "wire to_array = state == LOAD &&", "wire to_array = state != SWALLOW &&"),
+        ("reset_takes_none", "&& !full && !soft_reset;", "&& !full;"),
+        ("closed_by_reset", "if (rst || soft_reset) state <= IDLE;", "if (rst) state <= IDLE;"),
+        ("one_source", "assign s_axis_tready = ready && !from_push;", "assign s_axis_tready = ready;"),
+        (
+            "push_told",
+            "push_open = state == IDLE ? accept : from_push;",
+            "push_open = state == IDLE || from_push;",
+        ),
+        ("drops_once", "assign frame_dropped = ends && !frame_end;", "assign frame_dropped = ends && !good;"),
+        ("last_marked", "assign beat_last = last && closing && good;", "assign beat_last = last && closing;"),
+        ("zero_right", "some   <= !weighted;", "some   <= 1'b0;"),
+        (
+            "drop_told",
+            "assign bad_tlast = ends && state == LOAD && !closing && !full;",
+            "assign bad_tlast = 1'b0;",
+        ),
+        (
+            "few_right",
+            "assign few_rows = ends_row && !enough;",
+            "assign few_rows = ends_row && !enough && some_weight;",
+        ),
+    ),
+    *faults(
+        "front_deep",
+        LOADER,
+        (
+            "takes",
+            "wire taken_here = state == SWALLOW ||",
+            "wire taken_here = (state == SWALLOW && beat_ready) ||",
+        ),
+        ("long_right", "wire full = count[16] && first;", "wire full = count[15] && first;"),
+        ("ends_once", "assign frame_end = ends_row && good;", "assign frame_end = ends_row && enough;"),
+        ("tlast_right", "&& !closing && !full;", "&& !closing;"),
+    ),
+)
+
+LOADER_INSIDE = (
+    *faults(
+        "inside_bmc",
+        LOADER,
+        ("few_right", "count[2:0] == ALMOST", "count[1:0] == ALMOST[1:0]"),
+        ("weight_right", "assign beat_weight = beat_data[47:32];", "assign beat_weight = beat_data[15:0];"),
+    ),
+    *faults(
+        "inside_deep",
+        LOADER,
+        ("zero_right", "some <= some || here;", "some <= here;"),
+        ("beat_in_place", "localparam LAST = BEATS - 1,", "localparam LAST = BEATS - 2,"),
+    ),
+)
+
+LOADER_PLAIN = faults(
+    "plain_deep",
+    LOADER,
+    ("long_right", "assign too_long = fire && state == LOAD && full;", "assign too_long = fire && full;"),
+    ("no_beat_lost", "else if (full) state <= SWALLOW;", "else if (count[15]) state <= SWALLOW;"),
+)
+
+STATE_FAULTS = (
+    *faults(
+        "short_bmc",
+        STATE,
+        ("reset_to_idle", "if (soft_reset | watchdog | rst)", "if (soft_reset | rst)"),
+        ("compute_bounded", "computing & cycles[WATCHDOG_BITS];", "computing & cycles[15];"),
+        ("watchdog_right", "assign watchdog = computing & cycles", "assign watchdog = cycles"),
+        ("commit_in_compute", "assign commit = done & {3{computing}};", "assign commit = done;"),
+        ("done_held", "else if (acknowledge) state <= IDLE;", "else state <= IDLE;"),
+        ("accept_when_idle", "assign accept = ~busy;", "assign accept = state == IDLE;"),
+        ("begins_accepted", "assign accept = ~busy;", "assign accept = 1'b1;"),
+        ("idle_left", "IDLE: if (frame_start) state", "IDLE: if (frame_start & ~acknowledge) state"),
+        (
+            "loading_left",
+            "if (frame_end) state <= COMPUTE;",
+            "if (frame_end | frame_dropped) state <= COMPUTE;",
+        ),
+        ("compute_left", "if (refused) state <= IDLE;", "if (refused) state <= DONE;"),
+        ("busy_told", "assign busy = state == LOADING | computing;", "assign busy = computing;"),
+        ("results_told", "ready  <= rst | frame_start ? 3'd0 :", "ready  <= rst ? 3'd0 :"),
+        ("results_told", "cycles <= frame_end ? 16'd1 :", "cycles <= frame_end ? 16'd0 :"),
+        ("named_state", "else if (done[2]) state <= DONE;", "else if (done[2]) state <= 3'd7;"),
+    ),
+    *faults(
+        "short_bmc",
+        LOADER,
+        ("loads_only", "if (rst || soft_reset) state <= IDLE;", "if (rst) state <= IDLE;"),
+        ("ends_loaded", "if (rst || soft_reset) state <= IDLE;", "if (rst) state <= IDLE;"),
+    ),
+)
+
+READ_BITS = "if (!(read_low && (at_flags || at_frame_flags || at_frac))) bits"
+FLAGS_NEXT = "flags <= (flags & ~(ones & {FLAGS{to_flags}})) | raised;"
+IRQ_NEXT = "(irq_status & ~(write_data[1:0] & {2{to_irq_status}})) | {|raised, frame_complete};"
+
+FILE_FAULTS = (
+    *faults(
+        "full_bmc",
+        FILE,
+        ("write_answer", ".write_error(!write_mapped)", ".write_error(1'b0)"),
+        ("read_error", ".read_error(!read_mapped)", ".read_error(1'b0)"),
+        ("read_returns", "word_pick[0] ? weight : data_b", "word_pick[0] ? data_b : weight"),
+        ("read_returns", READ_BITS, READ_BITS.replace("read_low && ", "")),
+        ("read_returns", "constants <= VERSION_RESET;", "constants <= ID;"),
+        (
+            "results_asked",
+            "assign result_valid = read_valid && read_mapped &&",
+            "assign result_valid = read_valid &&",
+        ),
+        (
+            "result_place",
+            "assign result_index = read_word[7:2];",
+            "assign result_index = {1'b0, read_word[6:2]};",
+        ),
+        ("frac_written", "write_data[8*i+6] && write_data[8*i+5]", "write_data[8*i+6]"),
+        (
+            "locked_while_busy",
+            "if (to_variance && write_strobe[b] && !busy)",
+            "if (to_variance && write_strobe[b])",
+        ),
+        ("variance_written", "if (to_variance && write_strobe[b] && !busy)", "if (to_variance && !busy)"),
+        ("control_pulses", "to == CONTROL_ADDRESS[6:2] && write_strobe[0];", "to == CONTROL_ADDRESS[6:2];"),
+        ("push_written", "if (to_push && !push_locked) begin", "if (to_push) begin"),
+        (
+            "push_stays",
+            "if (to_data_b && write_strobe[b] && !push_waits)",
+            "if (to_data_b && write_strobe[b])",
+        ),
+        ("push_last_written", "write_data[PUSH_LAST_LSB] && write_strobe[0];", "write_data[PUSH_LAST_LSB];"),
+        ("flags_right", FLAGS_NEXT, "flags <= (flags | raised) & ~(ones & {FLAGS{to_flags}});"),
+        ("flags_right", FLAGS_NEXT, "flags <= (to_flags ? {FLAGS{1'b0}} : flags) | raised;"),
+        ("flags_right", "{{FLAGS - 8{write_strobe[1]}}, {8{write_strobe[0]}}}", "{FLAGS{write_strobe[0]}}"),
+        ("frame_flags_right", "~{FLAGS{frame_start}}) | raised;", "~{FLAGS{frame_start}}) | flag_set;"),
+        (
+            "irq_right",
+            IRQ_NEXT,
+            "(irq_status | {|raised, frame_complete}) & ~(write_data[1:0] & {2{to_irq_status}});",
+        ),
+        ("irq_right", "if (to_irq_enable) irq_enable", "if (to_irq_enable && !busy) irq_enable"),
+        ("irq_level", "irq <= |(irq_enable & irq_status);", "irq <= |irq_status;"),
+        (
+            "frame_counted",
+            "if (frame_complete) frame <= frame + 16'd1;",
+            "if (frame_complete) frame <= frame + 16'd1;\n"
+            "    if (write_low && to == STATUS_ADDRESS[6:2]) frame <= write_data[31:16];",
+        ),
+    ),
+    *faults(
+        "full_bmc",
+        SLAVE,
+        ("b_stays", "end else if (s_axil_bready) begin", "end else begin"),
+        ("r_stays", "else if (s_axil_rready) s_axil_rvalid <= 1'b0;", "else s_axil_rvalid <= 1'b0;"),
+        ("read_answer_due", "issue   <= accept || (issue && read_wait);", "issue   <= accept;"),
+    ),
+    *faults(
+        "full_bmc",
+        OLTAE,
+        ("config_locked", "to_config && write_strobe[0] && !busy;", "to_config && write_strobe[0];"),
+        ("config_written", "to_config && write_strobe[0] && !busy;", "to_config && !busy;"),
+        ("flags_right", ".own_locked(busy && to_config)", ".own_locked(1'b0)"),
+        ("read_returns", "if (!(read_valid && (at_config || at_turn))) own <= 4'd0;", ""),
+    ),
+)
+
+BARE_FAULTS = faults(
+    "bare_bmc",
+    OLTAE,
+    ("config_built", "configuration <= write_data[3:0] & BUILT;", "configuration <= write_data[3:0];"),
+    ("flags_right", "(set_config && asks) || (frame_start && asked);", "(set_config && asks);"),
+)
+
+IVISNAV_FAULTS = (
+    *faults(
+        "bmc",
+        IVISNAV,
+        ("read_returns", "read_valid && read_word == CONDITION_ADDRESS[11:2] ?", "read_valid ?"),
+        ("read_error", ".read_mapped(is_mapped(read_word))", ".read_mapped(1'b1)"),
+    ),
+    *faults(
+        "bmc",
+        FILE,
+        ("frac_written", "for (i = 0; i < FRACS; i = i + 1)", "for (i = 0; i < 1; i = i + 1)"),
+        ("locked_while_busy", "write_strobe[b] && !busy && frac_fits)", "write_strobe[b] && frac_fits)"),
+    ),
+)
+
+TRIPLE_TOP = "{{2{triple[WIDTH+1]}}, triple[WIDTH+1-:7]}"
+
+DIGIT_FAULTS = faults(
+    "reciprocal_bmc",
+    DIGIT,
+    (
+        "next_bounded",
+        "wire [8:0] t_3 = {five[13], five[13:6]};",
+        "wire [8:0] t_3 = {seven[13], seven[13:6]};",
+    ),
+    ("next_exact", ".in_2(triple[WIDTH-1:0])", ".in_2({divisor[WIDTH-2:0], 1'b0})"),
+    ("subtract_right", "assign subtract = positive & reached[1];", "assign subtract = positive;"),
+    ("sign_right", "assign positive = ~(below_zero ^ divisor[WIDTH-1]);", "assign positive = ~below_zero;"),
+)
+
+DIVIDE_FAULTS = (
+    *faults(
+        "divide_bmc", DIGIT, ("next_bounded", TRIPLE_TOP, "{{2{triple[WIDTH+1]}}, triple[WIDTH+1-:5], 2'b00}")
+    ),
+    *faults("divide_all", DIGIT, ("thermometer", TRIPLE_TOP, "{triple[WIDTH+1], triple[WIDTH+1-:8]}")),
+)
+
+RECIPROCAL_FAULTS = faults(
+    "anywhere",
+    RECIPROCAL,
+    ("quotient_right", "divisor[34] ? 5'sd1 : -5'sd1", "-5'sd1"),
+    ("digits_right", "positive ? size - 3'd1 : ~size;", "positive ? size - 3'd1 : -size;"),
+    ("operands_fit", "seven    <= {leading, 3'd0} -", "seven    <= {leading, 3'd0} +"),
+    ("same_exponent", "exponent <= -12'd65 + ~value[46:35];", "exponent <= -12'd64 + ~value[46:35];"),
+)
+
+RUN_FAULTS = faults(
+    "bmc",
+    RUN,
+    ("any_right", "assign any = |some;", "assign any = |some[3:1];"),
+    ("count_right", "(x[4:3] == 2'b00 && (x[2] || !x[1]))", "(x[4:3] == 2'b00 && x[2])"),
+)
+
+NORMALISER_FAULTS = faults(
+    "upper_98_bmc",
+    NORMALISER,
+    ("mant_right", "({35{fine[1:0] == 2'd1}} & by_4[36:2])", "({35{fine[1:0] == 2'd1}} & by_4[37:3])"),
+    ("zero_right", "wire is_zero = !(top_bit || |by_1[33:0]);", "wire is_zero = !(|by_1[33:0]);"),
+    ("exp_right", "exp_2 - {8'd0, fine};", "exp_2 - {9'd0, fine[2:0]};"),
+    ("normalised", "(quad[1] || !quad[2]);", "quad[1];"),
+    ("valid_right", "out_tag <= tag_2;", "out_tag <= tag_1;"),
+)
+
+CELL_FAULTS = faults(
+    "bmc",
+    CELL,
+    (
+        "product_bounded",
+        "else product <= x_factor * y_factor;",
+        "else product <= (x_factor * y_factor) <<< 1;",
+    ),
+    (
+        "sum_exact",
+        "{{SUM_BITS - X_BITS - Y_BITS{product[X_BITS+Y_BITS-1]}}, product}",
+        "{{SUM_BITS - X_BITS - Y_BITS{1'b0}}, product}",
+    ),
+    ("sum_exact", "sum <= extended + addend;", "sum <= (extended + addend) <<< 15 >>> 15;"),
+    ("same_addend", "if (addend_clear) addend <= 0;\n    else if (addend_load)", "if (addend_load)"),
+)
+
+RECOMBINE_FAULTS = faults(
+    "weighted_bmc",
+    RECOMBINE,
+    ("moment_exact", "$signed({{32{middle[47]}}, middle[47:16]});", "$signed({32'd0, middle[47:16]});"),
+    ("moment_exact", "upper  <= top_1 + (high_1 >>> 16);", "upper  <= top_1 + (high_1 >> 16);"),
+    ("moment_exact", "if (!with_top) top_1 <= 0;\n        else top_1 <= top;", "top_1 <= top;"),
+    (
+        "moment_exact",
+        "reg signed [47:0] difference, fraction, middle;",
+        "reg signed [45:0] difference, fraction, middle;",
+    ),
+)
+
+GROUPS = (
+    Group("axil_slave", "protocol_prove", "AXI4-Lite: answers, stability, SLVERR, accesses", SLAVE_PROTOCOL),
+    Group("axil_slave", "dependence_prove", "no ready or valid depends on an input of its clock", SLAVE_PINS),
+    Group(
+        "oltae_registers", "full_prove", "register map: write, read, W1C, locks, push, interrupt", FILE_FAULTS
+    ),
+    Group("oltae_registers", "bare_prove", "the same without weights, covariance, reapply", BARE_FAULTS),
+    Group(
+        "ivisnav_registers", "prove", "register map: write, read, W1C, locks, push, interrupt", IVISNAV_FAULTS
+    ),
+    Group(
+        "frame_loader", "plain_prove", "AXI4-Stream sink, no weights: beats, verdicts, flags", LOADER_PLAIN
+    ),
+    Group("frame_loader", "front_prove", "AXI4-Stream sink, weights in front", LOADER_FRONT),
+    Group("frame_loader", "inside_prove", "AXI4-Stream sink of ivisnav", LOADER_INSIDE),
+    Group(
+        "frame_loader",
+        "front_pins_prove",
+        "no valid depends on a ready, no ready on a valid (weights in front)",
+        faults(
+            "front_pins_bmc",
+            LOADER,
+            ("valid_needs_no_ready", VALID, "assign beat_valid = to_array && valid && beat_ready;"),
+            (
+                "ready_needs_no_valid",
+                "s_axis_tready = ready && !from_push;",
+                "s_axis_tready = fire && !from_push;",
+            ),
+        ),
+    ),
+    Group("frame_loader", "plain_pins_prove", "the same, no weights"),
+    Group("frame_loader", "inside_pins_prove", "the same, ivisnav"),
+    Group(
+        "frame_state",
+        "oltae_prove",
+        "states, watchdog, commits, times; behind the loader of oltae",
+        STATE_FAULTS,
+    ),
+    Group("frame_state", "ivisnav_prove", "the same behind the loader of ivisnav"),
+    Group(
+        "frame_state",
+        "upset_prove",
+        "a state without a name is left at once",
+        faults("upset_bmc", STATE, ("upset_left", "default: state <= IDLE;", "default: ;")),
+    ),
+    Group(
+        "result_store",
+        "middle_prove",
+        "only committed words are read, 0 without a read; group pose",
+        STORE_FAULTS,
+    ),
+    Group("result_store", "first_prove", "the same, group q"),
+    Group("result_store", "last_prove", "the same, group all"),
+    Group("result_store", "ivisnav_prove", "the same, ivisnav"),
+    Group(
+        "srt_digit",
+        "reciprocal_bmc",
+        "digit, next remainder and its bound, all 35-bit operands",
+        DIGIT_FAULTS,
+    ),
+    Group("srt_digit", "divide_bmc", "the same, all 27-bit operands", DIVIDE_FAULTS),
+    Group(
+        "reciprocal",
+        "prove",
+        "2^61 / m towards zero for every 35-bit m, with srt_digit by its contract",
+        RECIPROCAL_FAULTS,
+    ),
+    Group("sign_run", "bmc", "exact for all inputs", RUN_FAULTS),
+    Group(
+        "normaliser",
+        "upper_98_bmc",
+        "mantissa, exponent, zero, tag of every 98-bit integer",
+        NORMALISER_FAULTS,
+    ),
+    Group("normaliser", "upper_130_bmc", "the same, 130 bits"),
+    Group(
+        "normaliser",
+        "upper_144_bmc",
+        "the same, 144 bits",
+        faults(
+            "upper_144_bmc",
+            NORMALISER,
+            ("exp_right", "- {4'd0, group, 4'd0};", "- {5'd0, group[2:0], 4'd0};"),
+        ),
+    ),
+    Group(
+        "normaliser",
+        "lower_98_bmc",
+        "the 34 bits below, 98 bits",
+        faults("lower_98_bmc", NORMALISER, ("mant_right", "(value_1 << 98)", "(value_1 << 96)")),
+    ),
+    Group("normaliser", "lower_130_bmc", "the same, 130 bits"),
+    Group(
+        "mac_cell", "prove", "48 bits never overflow in a frame of 65535 rows; the sum is exact", CELL_FAULTS
+    ),
+    Group(
+        "recombine",
+        "weighted_bmc",
+        "exact for all limb sums of 65535 points, `both` wrapping",
+        RECOMBINE_FAULTS,
+    ),
+    Group(
+        "recombine",
+        "lean_bmc",
+        "the same without weights",
+        faults(
+            "lean_bmc",
+            RECOMBINE,
+            ("moment_exact", "high_2 + (middle >>> 16);", "high_2 + (middle >> 16);"),
+        ),
+    ),
+)

@@ -1,0 +1,337 @@
+# SPDX-License-Identifier: Apache-2.0
+"""A file that stands in for a module and holds all its mutants: +relnav_mutant=K chooses one, 0 none.
+
+The module keeps its header. Inside, each set of parameters that a test uses has a netlist of its own (Yosys:
+proc, constants folded, dead logic removed), into which `mutate -ctrl` has put every mutation with the number
+that switches it on; any other set of parameters has the original. So one build serves all mutants.
+"""
+
+from __future__ import annotations
+
+import re
+import subprocess
+import sys
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
+from pathlib import Path
+
+from sim.sources import RTL, reachable, sources
+
+CONTROL = "relnav_mutant"
+CONTROL_BITS = 24
+CLOCK = "clk"
+
+Values = tuple[tuple[str, str], ...]
+"""Parameter -> Verilog literal, in the order of the header."""
+
+_COMMENT = re.compile(r"//[^\n]*|/\*.*?\*/", re.DOTALL)
+
+
+@dataclass(frozen=True)
+class Header:
+    """Where a module's header stands in its file, and what it says."""
+
+    start: int
+    parameters: tuple[str, ...]
+    parameters_text: str
+    """What stands between #( and )."""
+    parameters_at: int
+    ports: tuple[str, ...]
+    ports_text: str
+
+
+@dataclass(frozen=True)
+class Mutant:
+    """One mutation, as `mutate -list` told it."""
+
+    number: int
+    """Of +relnav_mutant."""
+    values: Values
+    """The parameters of the netlist that it is in."""
+    mode: str
+    """inv, const0, const1; cnot0, cnot1: inverted while another bit of the port is 0, 1."""
+    cell: str
+    port: str
+    bit: int
+    control: int | None
+    """The other bit of cnot0 and cnot1."""
+    wire: str
+    """The net of the source's own that it is on, with the bit; empty where it has no name."""
+    source: str
+    """file:line.column-line.column of the statement."""
+    part: int
+    """Which netlist of the stand-in."""
+    line: str
+    """The command."""
+
+    @property
+    def key(self) -> str:
+        """What names it in equivalents.toml; the same as long as the module's file stays the same."""
+        place = f"{self.cell} {self.port}[{self.bit}]" + ("" if self.control is None else f"/{self.control}")
+        return " ".join([self.mode, place, *(f"{name}={value}" for name, value in self.values)])
+
+
+def module_file(module: str) -> Path:
+    """The file of a module of rtl/. Raises SystemExit where there is none."""
+    for file in sources():
+        if file.stem == module:
+            return file
+    raise SystemExit(f"mutate: there is no module {module} in rtl/")
+
+
+def _blank(text: str) -> str:
+    """Comments as spaces, so that places stay."""
+    return _COMMENT.sub(lambda match: re.sub(r"[^\n]", " ", match.group()), text)
+
+
+def _close(text: str, place: int) -> int:
+    """Place of the bracket that closes the one at `place`."""
+    depth = 0
+    for at in range(place, len(text)):
+        depth += {"(": 1, ")": -1}.get(text[at], 0)
+        if depth == 0:
+            return at
+    raise ValueError("a bracket is not closed")
+
+
+def _pieces(text: str) -> list[tuple[int, str]]:
+    """The parts between commas outside brackets, each with its place."""
+    found, depth, start = [], 0, 0
+    for at, letter in enumerate(text + ","):
+        depth += (letter in "([{") - (letter in ")]}")
+        if letter == "," and not depth:
+            found.append((start, text[start:at]))
+            start = at + 1
+    return [piece for piece in found if piece[1].strip()]
+
+
+def read_header(text: str, module: str) -> Header:
+    """Take a module's ANSI header apart."""
+    blank = _blank(text)
+    match = re.search(rf"\bmodule\s+{module}\b\s*", blank)
+    if match is None:
+        raise ValueError(f"there is no module {module}")
+    at, parameters_at, parameters_text = match.end(), match.end(), ""
+    if blank[at] == "#":
+        start = blank.index("(", at)
+        at = _close(blank, start)
+        parameters_at, parameters_text = start + 1, blank[start + 1 : at]
+    start = blank.index("(", at)
+    ports_text = blank[start + 1 : _close(blank, start)]
+    names = tuple(piece.partition("=")[0].split()[-1] for _, piece in _pieces(parameters_text))
+    ports = tuple(piece.split()[-1] for _, piece in _pieces(ports_text))
+    return Header(match.start(), names, parameters_text, parameters_at, ports, ports_text)
+
+
+def with_values(text: str, header: Header, values: Mapping[str, str]) -> str:
+    """The file with other defaults of its parameters; every line stays where it is."""
+    for place, piece in reversed(_pieces(header.parameters_text)):
+        declared, _, _ = piece.partition("=")
+        if declared.split()[-1] not in values:
+            continue
+        start = header.parameters_at + place
+        lines = "\n" * piece.count("\n", len(declared))
+        text = (
+            text[:start] + f"{declared}= {values[declared.split()[-1]]}{lines}" + text[start + len(piece) :]
+        )
+    return text
+
+
+def write_probe(module: str, file: Path, report: Path) -> None:
+    """A copy of the module that adds a line with its parameters to `report` at every instance's start."""
+    text = module_file(module).read_text()
+    header = read_header(text, module)
+    shown = []
+    for _, piece in _pieces(header.parameters_text):
+        declared = piece.partition("=")[0]
+        shown.append((declared.split()[-1], "%h" if "[" in declared else "%0d"))
+    form = " ".join(f"{name}={form}" for name, form in shown)
+    names = "".join(f", {name}" for name, _ in shown)
+    probe = (
+        f'integer relnav_probe; initial begin relnav_probe = $fopen("{report}", "a");'
+        f' $fdisplay(relnav_probe, "{module} {form}"{names}); $fclose(relnav_probe); end\n'
+    )
+    end = _blank(text).rindex("endmodule")
+    file.write_text(text[:end] + probe + text[end:])
+
+
+def read_probe(line: str) -> tuple[str, Values]:
+    """The module and the parameters of a line."""
+    module, *words = line.split()
+    header = read_header(module_file(module).read_text(), module)
+    pieces = [piece.partition("=")[0] for _, piece in _pieces(header.parameters_text)]
+    vectors = {declared.split()[-1] for declared in pieces if "[" in declared}
+    pairs = [word.partition("=")[::2] for word in words]
+    # text as a parameter has no value that Icarus shows; it keeps its default
+    return module, tuple(
+        (name, f"{4 * len(x)}'h{x}" if name in vectors else x) for name, x in pairs if x and x != name
+    )
+
+
+def _others(module: str) -> list[Path]:
+    """The files of what is inside a module."""
+    return [file for file in reachable(module, sources()) if file.stem != module]
+
+
+def _yosys(folder: Path, name: str, commands: Sequence[str]) -> None:
+    """Run commands in a Yosys of their own (pyosys) in `folder`."""
+    script, log = folder / f"{name}.ys", folder / f"{name}.log"
+    script.write_text("\n".join(commands) + "\n")
+    code = f"from pyosys import libyosys as y; y.run_pass('script {script.name}', y.Design())"
+    with log.open("w") as out:
+        done = subprocess.run(
+            ["timeout", "30", sys.executable, "-c", code],
+            cwd=folder,
+            stdout=out,
+            stderr=subprocess.STDOUT,
+            check=False,
+        )
+    if done.returncode:
+        errors = [line for line in log.read_text(errors="replace").splitlines() if "ERROR" in line]
+        raise RuntimeError(f"Yosys: {' '.join(errors)[:300] or 'no message'} (see {log})")
+
+
+def _parse(line: str, number: int, values: Values, part: int) -> Mutant:
+    """A line of `mutate -list`."""
+    found: dict[str, str] = {}
+    words = line.split()[1:]
+    for option, word in zip(words[::2], words[1::2], strict=True):
+        found.setdefault(option, word)  # of several sources the first: the wire's, else the cell's
+    wire = f"{found['-wire']}[{found.get('-wirebit', 0)}]" if "-wire" in found else ""
+    sources_found = [word for option, word in zip(words[::2], words[1::2], strict=True) if option == "-src"]
+    return Mutant(
+        number,
+        values,
+        found["-mode"],
+        found["-cell"],
+        found["-port"],
+        int(found["-portbit"]),
+        int(found["-ctrlbit"]) if "-ctrlbit" in found else None,
+        wire,
+        sources_found[-1] if sources_found else "",
+        part,
+        line,
+    )
+
+
+def _possible(line: str) -> bool:
+    """Not on a clock, which would come late in every mutant, nor on a memory's first contents, a constant."""
+    clocked = any(f" {place} " in line for place in (f"-wire {CLOCK}", "-port CLK", f"-port {CLOCK}"))
+    return not clocked and "meminit" not in line.split(" -cell ")[-1].split()[0]
+
+
+def make(
+    module: str, used: Sequence[Values], count: int | None, seed: int, folder: Path
+) -> tuple[Path, list[Mutant]]:
+    """Write the stand-in of a module with `count` mutants (None: all there are), spread over the sets `used`.
+
+    Returns the file and the mutants. Raises RuntimeError with Yosys' message.
+    """
+    folder.mkdir(parents=True, exist_ok=True)
+    original = module_file(module)
+    text = original.read_text()
+    header = read_header(text, module)
+    chosen = list(used) if count is None or len(used) <= count else list(used)[:: -(-len(used) // count)]
+    mutants: list[Mutant] = []
+    netlists = []
+    for place, values in enumerate(chosen):
+        part = folder / f"part{place}"
+        part.mkdir(exist_ok=True)
+        (part / original.name).write_text(with_values(text, header, dict(values)))
+        read = [
+            f"read_verilog -I{RTL / 'include'} {original.name}",
+            *(f"read_verilog -lib -I{RTL / 'include'} {file}" for file in _others(module)),
+            f"proc -norom {module}",
+            *[f"opt_expr {module}", f"opt_clean {module}"] * 3,
+            "write_rtlil netlist.il",
+        ]
+        wanted = 10_000_000 if count is None else (count * (place + 1)) // len(chosen) - len(mutants)
+        # a quarter more, for those on the clock
+        some = wanted if count is None else wanted + wanted // 4 + 20
+        _yosys(part, "list", [*read, f"mutate -list {some} -seed {seed + place} -o list.txt {module}"])
+        lines = [line for line in (part / "list.txt").read_text().splitlines() if _possible(line)]
+        apply = ["read_rtlil netlist.il"]
+        for line in lines[:wanted]:
+            mutant = _parse(line, len(mutants) + 1, values, place)
+            mutants.append(mutant)
+            apply.append(
+                line.replace("mutate ", f"mutate -ctrl {CONTROL} {CONTROL_BITS} {mutant.number} ", 1)
+            )
+        if len(apply) == 1:  # nothing to mutate: an input that nothing reads
+            apply.append(f"select -module {module}; add -input {CONTROL} {CONTROL_BITS}; select -clear")
+        apply += [f"select {module}", "write_verilog -noattr -selected netlist.v"]
+        _yosys(part, "apply", apply)
+        netlist = (part / "netlist.v").read_text()
+        netlists.append(re.sub(rf"\bmodule {module}\b", f"module {module}__{place}", netlist, count=1))
+    file = folder / original.name
+    file.write_text(_stand_in(module, text, header, chosen, netlists))
+    return file, mutants
+
+
+def proved_equivalent(module: str, mutant: Mutant, folder: Path, seconds: int = 20) -> bool:
+    """Whether SAT proves that a mutation changes no output, no next state and no input of an instance inside.
+
+    Registers and instances are cut: what they give is free. False: not proved, for whatever reason (what only
+    cannot be reached is not proved so, nor anything in a module with a memory). folder: of `make`.
+    """
+    part = folder / f"part{mutant.part}"
+    commands = [
+        "read_rtlil netlist.il",
+        mutant.line.replace("mutate ", f"mutate -ctrl {CONTROL} 1 1 ", 1),
+        f"memory_collect {module}",
+        f"memory_map {module}",
+        f"simplemap {module}/t:$dff",
+        f"cd {module}",
+        "autoname",
+        "rename -hide t:$* t:$_DFF_P_ %d",  # expose cuts at cells that have names,
+        "rename -hide w:* i:* %d o:* %d",  # and makes outputs of nets that have some
+        "cd ..",
+        # the instances' ports as wide as their parameters say
+        *(f"read_verilog -overwrite -I{RTL / 'include'} {file}" for file in _others(module)),
+        f"hierarchy -top {module}",
+        f"opt_clean -purge {module}",  # single flip-flops that nothing reads
+        f"expose -evert {module}",
+        f"copy {module} gold",
+        f"copy {module} gate",
+    ]
+    for name, value in (("gold", 0), ("gate", 1)):
+        commands += [f"cd {name}", f"delete -port w:{CONTROL}", f"connect -set {CONTROL} 1'{value}", "cd .."]
+    commands += [
+        "miter -equiv -make_outputs gold gate miter",
+        "flatten miter",
+        "opt -fast miter",
+        f"sat -verify -prove trigger 0 -timeout {seconds} miter",
+    ]
+    try:
+        _yosys(part, "equivalent", commands)
+    except RuntimeError:
+        return False
+    return "SUCCESS!" in (part / "equivalent.log").read_text(errors="replace")
+
+
+def _stand_in(
+    module: str, text: str, header: Header, chosen: Sequence[Values], netlists: Sequence[str]
+) -> str:
+    ports = ", ".join(f".{port}({port})" for port in header.ports)
+    parameters = f" #({header.parameters_text})" if header.parameters else ""
+    branches = []
+    for place, values in enumerate(chosen):
+        same = " && ".join(f"{name} == {value}" for name, value in values) or "1"
+        branches.append(
+            f"if ({same}) begin : g_{place}\n"
+            f"    {module}__{place} u_mutants ({ports}, .{CONTROL}({CONTROL}));\n  end else "
+        )
+    passed = ", ".join(f".{name}({name})" for name in header.parameters)
+    passed = f" #({passed})" if passed else ""
+    ports_text = re.sub(r"\breg\b", "wire", header.ports_text)
+    renamed = text[: header.start] + re.sub(
+        rf"\bmodule(\s+){module}\b", rf"module\g<1>{module}__original", text[header.start :], count=1
+    )
+    return (
+        f"{text[: header.start]}module {module}{parameters} ({ports_text});\n"
+        f"  reg [{CONTROL_BITS - 1}:0] {CONTROL};\n"
+        f'  initial if (!$value$plusargs("{CONTROL}=%d", {CONTROL})) {CONTROL} = 0;\n'
+        f"  generate {''.join(branches)}begin : g_original\n"
+        f"    {module}__original{passed} u_original ({ports});\n  end endgenerate\n"
+        f"endmodule\n`resetall\n{'`resetall'.join(netlists)}\n`resetall\n{renamed}"
+    )
