@@ -97,7 +97,7 @@ def measure(core: RatesCore, rows: QuantisedRows) -> Outcome:
     solution = exact.solve(rows)
     _, y = rows.values()
     sums = gram_ring(rows.h, rows.y, rows.w)
-    scale = FrameScale(sums.h_bits, sums.y_bits, sums.weight_bits, rows.frac_h, rows.frac_y)
+    scale = FrameScale.of(sums, rows.frac_h, rows.frac_y)
     with np.errstate(all="ignore"):
         explicit, _ = explicit_rates(sums.moments, scale)
     return Outcome(

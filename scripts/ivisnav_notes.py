@@ -174,7 +174,7 @@ class RoundedResidual(ResidualUnit):
 def engine(rows: QuantisedRows) -> Watched:
     """At the start of a frame."""
     sums = gram_ring(rows.h, rows.y, rows.w)
-    scale = FrameScale(sums.h_bits, sums.y_bits, sums.weight_bits, rows.frac_h, rows.frac_y, True)
+    scale = FrameScale.of(sums, rows.frac_h, rows.frac_y)
     return Watched(sums.moments, scale, sums.used_count)
 
 

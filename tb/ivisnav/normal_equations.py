@@ -31,9 +31,7 @@ class Rows:
 
     def scale(self, variance: int) -> FrameScale:
         """Their powers of two."""
-        sums = self.sums()
-        estimated = variance >> 23 & 0xFF == 0
-        return FrameScale(sums.h_bits, sums.y_bits, sums.weight_bits, self.frac_h, self.frac_y, estimated)
+        return FrameScale.of(self.sums(), self.frac_h, self.frac_y, variance)
 
 
 def quantised(h: FloatArray, y: FloatArray, w: IntArray | None = None, bits: int = 31) -> Rows:

@@ -16,7 +16,6 @@ from relnav.ivisnav.driver import beats_of as ivisnav_beats
 from relnav.ivisnav.quantise import QuantisedRows
 from relnav.model.core import OltaeCore
 from relnav.model.gram_ring import gram_ring
-from relnav.model.rates_core import is_zero
 from relnav.model.rates_engine import RatesEngine
 from relnav.model.rates_program import Mark
 from relnav.model.rates_scale import FrameScale
@@ -180,10 +179,9 @@ def ivisnav_solve(rows: list[tuple[int, ...]], weighted: bool, settings: Setting
     frac_h, frac_y = _byte(settings.frac & 0xFF), _byte(settings.frac >> 8 & 0xFF)
     data = QuantisedRows(h, y, w, frac_h, frac_y)
     sums = gram_ring(data.h, data.y, data.w)
-    estimated = is_zero(settings.variance)
-    scale = FrameScale(sums.h_bits, sums.y_bits, sums.weight_bits, frac_h, frac_y, estimated=estimated)
+    scale = FrameScale.of(sums, frac_h, frac_y, settings.variance)
     with np.errstate(all="ignore"):
-        found = RatesEngine(sums.moments, scale, int((w > 0).sum()), settings.variance).run()
+        found = RatesEngine(sums.moments, scale, sums.used_count, settings.variance).run()
     if found.rank_deficient:
         return Solved(flags=frozenset({"RANK_DEFICIENT"}))
     if found.ill_conditioned:

@@ -67,7 +67,7 @@ def invert(a: Floats) -> Floats | None:
 def explicit_inverse(rows: QuantisedRows) -> FloatArray:
     """x (6,) in binary32 from the core's exact sums by U^-1 D^-1 L^-1, without refinement."""
     sums = gram_ring(rows.h, rows.y, rows.w)
-    scale = FrameScale(sums.h_bits, sums.y_bits, sums.weight_bits, rows.frac_h, rows.frac_y, estimated=False)
+    scale = FrameScale.of(sums, rows.frac_h, rows.frac_y)
     return explicit_rates(sums.moments, scale)[0].astype(np.float64)
 
 

@@ -3,14 +3,16 @@
 
 from __future__ import annotations
 
+from relnav import words
 from relnav.ivisnav.quantise import QuantisedRows
 from relnav.ivisnav.raw import FLAG_BITS, RawRates
 from relnav.model.gram_ring import gram_ring
 from relnav.model.rates_engine import RatesEngine
+from relnav.model.rates_program import SIZE
 from relnav.model.rates_scale import FrameScale
 from relnav.model.raw import variance_word
 
-LEAST_ROWS, MOST_ROWS = 6, 65535
+LEAST_ROWS, MOST_ROWS = SIZE, (1 << words.COUNT) - 1
 
 
 class RatesCore:
@@ -27,20 +29,13 @@ class RatesCore:
         if refusals:
             return RawRates(flags=sum(1 << FLAG_BITS[name] for name in refusals))
         sums = gram_ring(rows.h, rows.y, rows.w)
-        scale = FrameScale(
-            sums.h_bits, sums.y_bits, sums.weight_bits, rows.frac_h, rows.frac_y, estimated=is_zero(word)
-        )
+        scale = FrameScale.of(sums, rows.frac_h, rows.frac_y, word)
         result = RatesEngine(sums.moments, scale, used, word).run()
         if result.rank_deficient:
             return RawRates(flags=1 << FLAG_BITS["RANK_DEFICIENT"])
         if result.ill_conditioned:
             return RawRates(flags=1 << FLAG_BITS["ILL_CONDITIONED"], condition_word=result.condition)
         return RawRates(rows.n, used, sums.weight_sum, 0, result.condition, result.words)
-
-
-def is_zero(word: int) -> bool:
-    """Whether a binary32 word is zero to the hardware, to which denormals are."""
-    return word >> 23 & 0xFF == 0
 
 
 def _refusals(n: int, used: int) -> list[str]:

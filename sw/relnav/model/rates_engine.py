@@ -9,7 +9,6 @@ import numpy as np
 
 from relnav.model.float32 import Floats, add, divide, from_integer, multiply, subtract
 from relnav.model.rates_program import (
-    ALL,
     FREEDOM,
     LANES,
     SIZE,
@@ -62,7 +61,8 @@ class RatesEngine:
     """Logarithms of the largest seen."""
     condition: int = 0
     rank_deficient: bool = False
-    diagonal: Floats = field(default_factory=lambda: np.zeros(SIZE, np.float32))
+    largest_inverse: int = 0
+    """Word of the largest diagonal element of the inverse so far."""
 
     def run(self) -> EngineResult:
         """All of it; a frame without result still goes through, its words mean nothing then."""
@@ -155,15 +155,13 @@ class RatesEngine:
         elif step.track == Track.DIAGONAL:
             assert step.bus is not None
             # they come from lane 5 down; the first of equals stays
-            if step.bus.lane == SIZE - 1 or word & 0x7FFFFFFF > self._best:
-                self._best = word & 0x7FFFFFFF
+            if step.bus.lane == SIZE - 1 or word & 0x7FFFFFFF > self.largest_inverse:
+                self.largest_inverse = word & 0x7FFFFFFF
                 self.largest[Bank.S] = step.bus.lane
         elif step.track == Track.CONDITION:
             self.condition = word
         else:
             self.sizes[step.track] = max(self.sizes[step.track], (word & 0x7FFFFFFF) >> LOGARITHM)
-
-    _best: int = 0
 
 
 def _largest(words: list[int]) -> int:
@@ -183,6 +181,3 @@ def scaled_word(value: np.float32, scale: int) -> int:
     if exponent >= 0xFF:
         return (word & 0x80000000) | 0x7F800000
     return (word & 0x807FFFFF) | exponent << 23
-
-
-__all__ = ["ALL", "EngineResult", "RatesEngine", "scaled_word"]

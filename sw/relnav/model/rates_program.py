@@ -7,8 +7,8 @@ values binary32, each operation rounded by itself. One operation a cycle goes to
     product = x * y        x of the lane's own; y of one lane (on the bus), of its own, or special
     sum     = c +- product
 
-Moments and rates are scaled by powers of two (`scale.py`), so that |A| < 1 and |b| < 1; the residuals
-r = b - A x come from the exact integers (`residual.py`).
+Moments and rates are scaled by powers of two (`rates_scale.py`), so that |A| < 1 and |b| < 1; the residuals
+r = b - A x come from the exact integers (`rates_residual.py`).
 
 Memory of a lane:
     A 0..5 row of A, 6 b, 7 (lane 0) used rows - 6            written by the moments, never again

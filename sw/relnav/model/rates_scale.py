@@ -5,6 +5,7 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 
+from relnav.model.gram_ring import RingSums
 from relnav.model.rates_program import SIZE, Scale
 
 
@@ -22,6 +23,12 @@ class FrameScale:
     frac_y: int = 0
     estimated: bool = False
     """The covariance is scaled by the residuals, not by VARIANCE."""
+
+    @classmethod
+    def of(cls, sums: RingSums, frac_h: int, frac_y: int, variance: int = 0) -> FrameScale:
+        """That of a frame's sums. variance: the VARIANCE register; to the hardware a denormal is 0."""
+        estimated = variance >> 23 & 0xFF == 0
+        return cls(sums.h_bits, sums.y_bits, sums.weight_bits, frac_h, frac_y, estimated)
 
     def __post_init__(self) -> None:
         """y counts as two bits at least: the residual's shifter is sized for it."""
