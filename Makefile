@@ -20,16 +20,22 @@ MUTANTS ?=
 # --quick: a few cases, nothing kept
 BENCH_ARGS ?=
 
+# --quick; --core oltae; --only 'axil_slave.*'
+FAULTS_ARGS ?=
+
 # modules to prove, all by default
 FORMAL_ARGS ?=
 
-.PHONY: help setup sim sim-ivisnav test soak waves synth timing bench formal docs mutate lint format clean distclean
+.PHONY: help setup setup-c sim sim-ivisnav test c soak waves synth timing package bench formal docs verification mutate faults coverage lint format clean distclean
 
 help: ## this list
 	@awk -F ':.*## ' '/^[a-z%<>-]+:.*## / { printf "  make %-14s %s\n", $$1, $$2 }' $(MAKEFILE_LIST)
 
 setup: ## install what is missing: .venv, and Debian packages where that is possible
 	@scripts/setup.sh
+
+setup-c: setup ## also what tests the C driver bare on a Cortex-A9: cross compiler, QEMU, cppcheck (1.1 GB, Debian)
+	@scripts/setup.sh --c
 
 sim: setup ## fly the 25-frame landing through OLTAE's RTL and write the report (LANDING_ARGS=...)
 	@$(BIN)/relnav landing $(LANDING_ARGS)
@@ -44,6 +50,9 @@ sim-%: setup ## the testbenches of one module or folder of tb/, e.g. sim-centrin
 	@folders="$$(find tb -type d -name '$*')"; \
 	if [ -z "$$folders" ]; then echo "make: no folder of tb/ is called $*" >&2; exit 2; fi; \
 	$(BIN)/python -m pytest $(PYTEST_ARGS) $$folders
+
+c: setup ## build and test the C driver (sw/c), measure its code and stack into sw/c/README.md
+	@$(BIN)/python -m scripts.c_size && $(BIN)/python -m pytest $(PYTEST_ARGS) tb/c
 
 soak: setup ## random frames, accesses, resets against the model (MINUTES=10 SEED= CORE=both SIMULATOR=verilator EPISODE=)
 	@$(BIN)/python -m tb.soak.soak --jobs $(JOBS) $(if $(MINUTES),--minutes $(MINUTES)) $(if $(SEED),--seed $(SEED)) \
@@ -60,7 +69,14 @@ timing: setup ## place and route on ECP5-85k with nextpnr (slow), into syn/resul
 
 docs: setup ## fill the tables of README and docs/ from the last runs (after make sim sim-ivisnav)
 	@$(BIN)/python scripts/readme_sim.py && $(BIN)/python scripts/latency.py && \
-	  $(BIN)/python scripts/ivisnav_sheet.py && $(BIN)/python scripts/decisions.py
+	  $(BIN)/python scripts/ivisnav_sheet.py && $(BIN)/python scripts/decisions.py && \
+	  $(BIN)/python scripts/verification.py
+
+verification: setup ## docs/verification.md from the results of formal, mutate, coverage and faults
+	@$(BIN)/python scripts/verification.py
+
+package: setup ## file lists, FuseSoC cores, IP-XACT components and the bench without Python, from the sources
+	@$(BIN)/python -m package
 
 bench: setup ## accuracy, 3-sigma bounds and flags of the model, into bench/results.json (BENCH_ARGS=--quick)
 	@$(BIN)/python -m bench $(BENCH_ARGS)
@@ -71,6 +87,12 @@ formal: setup ## proofs with SymbiYosys, and broken copies that must fail (FORMA
 mutate: setup ## put errors into the netlists, the tests must fail: a sample, 10 min (MODULE=..., MUTANTS=100 or all)
 	@$(BIN)/python -m mutate --jobs $(JOBS) $(if $(MODULE),--module "$(MODULE)") $(if $(MUTANTS),--mutants $(MUTANTS))
 
+faults: setup ## flip every control flip-flop in mid-frame, and some of the data, into faults/results.json (FAULTS_ARGS=--quick)
+	@$(BIN)/python -m faults --jobs $(JOBS) $(FAULTS_ARGS)
+
+coverage: setup ## lines, branches, toggles and cover points of the regression on Verilator; every hole
+	@$(BIN)/python -m coverage --jobs $(JOBS)
+
 lint: setup ## ruff, mypy, verible, Verilator on every module alone, Icarus, Yosys, shellcheck
 	@scripts/lint.sh
 
@@ -79,7 +101,7 @@ format: setup ## format the Python files
 
 clean: ## remove what was built; .venv stays
 	rm -rf build out .pytest_cache .mypy_cache .ruff_cache
-	find bench formal mutate sim sw syn tb scripts -name __pycache__ -prune -exec rm -rf {} +
+	find bench coverage faults formal package mutate sim sw syn tb scripts -name __pycache__ -prune -exec rm -rf {} +
 
 distclean: clean ## remove .venv too
 	rm -rf .venv sw/*.egg-info

@@ -31,7 +31,8 @@ module axil_slave_properties #(
   wire s_axil_awready, s_axil_wready, s_axil_bvalid, s_axil_arready, s_axil_rvalid, write_valid, read_valid;
   wire [1:0] s_axil_bresp, s_axil_rresp;
   wire [31:0] s_axil_rdata, write_data;
-  wire [3:0] write_strobe;
+  wire [3:0] write_strobe, write_parity;
+  wire upset;
   wire [ADDRESS-1:2] write_word, read_word;
 
   axil_slave #(
@@ -62,16 +63,19 @@ module axil_slave_properties #(
       .write_word(write_word),
       .write_data(write_data),
       .write_strobe(write_strobe),
+      .write_parity(write_parity),
       .write_error(write_error),
       .read_valid(read_valid),
       .read_word(read_word),
       .read_wait(read_wait),
       .read_error(read_error),
-      .read_data(read_data)
+      .read_data(read_data),
+      .upset(upset)
   );
 
   // connected to the slave's registers by the script
   wire full_address, full_data, stage_issue, stage_capture, failed_write, failed_read;
+  wire parity_write_address;
   wire [ADDRESS-1:0] held_write, held_read;
 
   reg started = 1'b0;  // there has been a clock edge: $past is valid
@@ -125,11 +129,16 @@ module axil_slave_properties #(
     write_once : assert (write_valid == (address_waits && data_waits && !s_axil_bvalid && shadow_address[1:0] == 0));
     if (write_valid) write_handed_on : assert (write_word == shadow_address[ADDRESS-1:2] && write_data == shadow_data);
     if (write_valid) strobe_handed_on : assert (write_strobe == shadow_strobe);
+    if (write_valid) parity_handed_on : assert (write_parity == {^{write_strobe[3], write_data[31:24]}, ^{write_strobe[2], write_data[23:16]},
+                                                                 ^{write_strobe[1], write_data[15:8]}, ^{write_strobe[0], write_data[7:0]}});
+    no_false_alarm : assert (!upset);
     if (rises_b) b_error : assert (s_axil_bresp == {was_misaligned || $past(write_error), 1'b0});
     // the shadow is the slave's state
     same_write_state : assert (full_address == address_waits && full_data == data_waits);
-    if (address_waits) same_write_address : assert (held_write == shadow_address);
-    if (data_waits) same_write_data : assert (write_data == shadow_data && write_strobe == shadow_strobe);
+    if (address_waits) same_write_address : assert (held_write == shadow_address && parity_write_address == ^shadow_address);
+    if (data_waits) same_write_data : assert (write_data == shadow_data && write_strobe == shadow_strobe && write_parity ==
+        {^{shadow_strobe[3], shadow_data[31:24]}, ^{shadow_strobe[2], shadow_data[23:16]}, ^{shadow_strobe[1], shadow_data[15:8]},
+         ^{shadow_strobe[0], shadow_data[7:0]}});
   end
 
   // ---- read
@@ -235,12 +244,14 @@ module axil_slave_handshakes (
       .write_word(),
       .write_data(),
       .write_strobe(),
+      .write_parity(),
       .write_error(write_error),
       .read_valid(),
       .read_word(),
       .read_wait(read_wait),
       .read_error(read_error),
-      .read_data(read_data)
+      .read_data(read_data),
+      .upset()
   );
 endmodule
 

@@ -12,7 +12,7 @@
 module core_registers_checker #(
     parameter [31:0] ID              = 32'd0,
     parameter [31:0] BUILD           = 32'd0,
-    parameter        FLAGS           = 10,
+    parameter        FLAGS           = 11,
     parameter        FRACS           = 1,
     parameter [11:0] COUNT_ADDRESS   = 12'h060,
     parameter [11:0] FIRST_ADDRESS   = 12'h06C,
@@ -86,7 +86,10 @@ module core_registers_checker #(
     input wire [ 3:0] dut_write_strobe,
     input wire [FLAGS-1:0] dut_flags, dut_frame_flags,
     input wire [ 1:0] dut_irq_enable, dut_irq_status,
-    input wire [15:0] dut_frame
+    input wire [15:0] dut_frame,
+    input wire dut_write_address_parity, dut_flags_differ, upset,
+    input wire [ 3:0] dut_write_parity, dut_variance_parity,
+    input wire [FRACS-1:0] dut_frac_parity
 );
   `include "common_registers.vh"
 
@@ -94,6 +97,11 @@ module core_registers_checker #(
   always @(posedge clk) {started, was_reset} <= {1'b1, rst};
   always @* if (!started) assume (rst);
   assign checking = started;
+
+  // parity of each byte
+  function [3:0] odd(input [31:0] word);
+    odd = {^word[31:24], ^word[23:16], ^word[15:8], ^word[7:0]};
+  endfunction
 
   // ---- accesses, from the pins
 
@@ -265,13 +273,17 @@ module core_registers_checker #(
     frame_counted : assert (dut_frame == frame);
     // the model is the registers
     same_bus : assert (dut_address_full == address_waits && dut_data_full == data_waits && dut_issue == asked && dut_capture == fetch);
-    if (address_waits) same_address : assert (dut_write_address == address);
-    if (data_waits) same_data : assert (dut_write_data == data && dut_write_strobe == strobe);
+    if (address_waits) same_address : assert (dut_write_address == address && dut_write_address_parity == ^address);
+    if (data_waits) same_data : assert (dut_write_data == data && dut_write_strobe == strobe && dut_write_parity == (odd(data) ^ strobe));
     if (asked || fetch || answer) same_read : assert (dut_read_address == from);
     one_stage : assert (asked + fetch + answer <= 1);
     if (fetch || answer) same_failed : assert (dut_read_failed == expect_failed);
     if (fetch) same_fetched : assert (dut_read_data == expected_now);
     same_words : assert (dut_data_a == data_a && dut_data_b == data_b);
+    same_parity : assert (dut_variance_parity == ~odd(variance) &&
+                          {dut_frac_parity, {4 - FRACS{1'b1}}} == ~odd({frac, {32 - 8 * FRACS{1'b0}}}) && !dut_flags_differ);
+    // nothing was upset
+    no_false_alarm : assert (!upset);
   end
 endmodule
 

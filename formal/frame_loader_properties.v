@@ -19,6 +19,7 @@ module frame_loader_properties #(
     input wire        accept,
     input wire        weighted,
     input wire        soft_reset,
+    input wire        give_up,
     input wire [63:0] s_axis_tdata,
     input wire        s_axis_tvalid,
     input wire        s_axis_tlast,
@@ -29,6 +30,8 @@ module frame_loader_properties #(
 );
   wire s_axis_tready, push_ready, push_open, clear, beat_weighted, beat_valid, beat_last;
   wire frame_start, frame_end, frame_dropped, few_rows, zero_weight, bad_tlast, too_long;
+  wire open_told, upset;
+  wire [15:0] rows_told;
   wire [63:0] beat_data;
   wire [ 1:0] beat_index;
   wire [15:0] beat_weight;
@@ -43,6 +46,7 @@ module frame_loader_properties #(
       .accept(accept),
       .weighted(weighted),
       .soft_reset(soft_reset),
+      .give_up(give_up),
       .s_axis_tdata(s_axis_tdata),
       .s_axis_tvalid(s_axis_tvalid),
       .s_axis_tready(s_axis_tready),
@@ -66,14 +70,17 @@ module frame_loader_properties #(
       .few_rows(few_rows),
       .zero_weight(zero_weight),
       .bad_tlast(bad_tlast),
-      .too_long(too_long)
+      .too_long(too_long),
+      .open(open_told),
+      .rows(rows_told),
+      .upset(upset)
   );
 
   // connected to the loader's registers by the script; dut_some only where there is one
   wire [ 1:0] dut_state;
   wire [ 1:0] dut_beat;
-  wire [16:0] dut_count;
-  wire dut_from_push, dut_enough, dut_some;
+  wire [15:0] dut_count;
+  wire dut_from_push, dut_enough, dut_some, dut_differ;
 
   reg started = 1'b0;
   always @(posedge clk) started <= 1'b1;
@@ -83,7 +90,8 @@ module frame_loader_properties #(
   reg open;  // between frame_start and the last beat
   reg source;  // 1: push register
   reg mode;  // weight beats in front
-  reg over;  // a beat too many has come
+  reg over;  // a beat too many has come, or it was given up
+  reg ended;  // the last frame ended well
   reg [16:0] rows;  // complete
   reg [1:0] place;  // of the beat that comes next in its row, a weight in front counted
   reg some;  // a weight that is not 0 has come
@@ -128,7 +136,9 @@ module frame_loader_properties #(
       some <= 1'b0;
       weight <= 16'd1;
     end
+    if (give_up && open) over <= 1'b1;
     if (rst || soft_reset) open <= 1'b0;
+    ended <= !rst && !soft_reset && (ended ? !frame_start : frame_end);
 
     taken <= taken + {7'd0, take};
     given <= given + {7'd0, give};
@@ -138,9 +148,9 @@ module frame_loader_properties #(
 
   wire [1:0] dut_place = WEIGHTED == 1 && mode ? dut_beat + 2'd1 : dut_beat;
   wire consistent = dut_state == {open && over, open && !over} && (!open || (dut_from_push == source &&
-      (over ? rows == 17'd65535 : dut_place == place && dut_count == rows + 17'd1 && rows < 17'd65535 + (place == 2'd0) && place <= final_place &&
+      (over || (dut_place == place && dut_count == rows[15:0] && rows < 17'd65535 + (place == 2'd0) && place <= final_place &&
        dut_enough == (rows + 17'd1 >= LEAST) && (WEIGHTED != 1 || (beat_weighted == mode && dut_some == (!mode || some))) &&
-       (WEIGHTED != 2 || dut_some == some)))) && taken == given + kept;
+       (WEIGHTED != 2 || dut_some == some))))) && (!ended || dut_count == rows[15:0]) && (WEIGHTED != 1 || !(dut_differ || upset)) && taken == given + kept;
   // the weight of a row stands from the clock after it was taken
   wire weight_held = !open || over || beyond || WEIGHTED != 1 || (beat_weight == (mode ? weight : 16'd1));
 
@@ -169,6 +179,10 @@ module frame_loader_properties #(
     opens : assert (frame_start == (!open && accept && !soft_reset && (push_valid || s_axis_tvalid)));
     clears : assert (clear == frame_start);
     closed_takes_none : assert (open || (!s_axis_tready && !push_ready && !beat_valid));
+    open_right : assert (open_told == open);
+    if ((open && !over) || ended) rows_right : assert ({1'b0, rows_told} == rows);
+    no_false_alarm : assert (!upset);
+    abort_takes_none : assert (!give_up || over || (!s_axis_tready && !push_ready && !beat_valid));
     reset_takes_none : assert (!soft_reset || (!s_axis_tready && !push_ready && !beat_valid));
     if (open) one_source : assert (source ? !s_axis_tready : !push_ready);
     push_told : assert (push_open == (open ? source : accept));
@@ -183,10 +197,10 @@ module frame_loader_properties #(
       weight_right : assert (beat_weight == (WEIGHTED == 2 ? beat_data[47:32] : WEIGHTED == 1 && mode ? weight : 16'd1));
     if (open) mode_right : assert (WEIGHTED == 1 ? beat_weighted == mode || over : !beat_weighted);
     // an offered beat stays as it is while its source keeps it
-    if (started && was_offered && !soft_reset && offered && beat_data == was_data && offered_last == was_offered_last)
+    if (started && was_offered && !soft_reset && !give_up && offered && beat_data == was_data && offered_last == was_offered_last)
       beat_stays : assert (beat_valid && beat_index == was_index && beat_weight == was_weight && beat_last == was_last);
     // it never stops: a beat that is offered and wanted is taken
-    if (open && offered && !soft_reset && (beat_ready || !for_array)) takes : assert (take);
+    if (open && offered && !soft_reset && !(give_up && !over) && (beat_ready || !for_array)) takes : assert (take);
     // one verdict a frame, with the last beat
     ends_once : assert (frame_end == good_end);
     drops_once : assert (frame_dropped == (take && take_last && !good_end));
@@ -210,7 +224,7 @@ module frame_loader_dependence #(
     input wire         clk,
     input wire         differ,
     input wire         other,
-    input wire [135:0] inputs,
+    input wire [136:0] inputs,
     input wire [131:0] source_b
 );
   reg started = 1'b0, parted = 1'b0;
@@ -218,11 +232,11 @@ module frame_loader_dependence #(
     started <= 1'b1;
     parted  <= parted || differ;
   end
-  wire [135:0] second = {inputs[135:132], differ && other ? source_b : inputs[131:0]};
+  wire [136:0] second = {inputs[136:132], differ && other ? source_b : inputs[131:0]};
   wire ready_a;
   wire [85:0] valids_a, valids_b;
   wire [1:0] readies_a, readies_b;
-  wire [40:0] state_a, state_b;
+  wire [39:0] state_a, state_b;
   (* anyseq *) wire ready;
   frame_loader_pins #(BEATS, LEAST, WEIGHTED) a (clk, inputs, ready, valids_a, readies_a, state_a);
   frame_loader_pins #(BEATS, LEAST, WEIGHTED) b (clk, second, ready ^ (differ && !other), valids_b, readies_b, state_b);
@@ -240,20 +254,20 @@ module frame_loader_pins #(
     parameter WEIGHTED = 1
 ) (
     input  wire         clk,
-    input  wire [135:0] inputs,
+    input  wire [136:0] inputs,
     input  wire         beat_ready,
     output wire [ 85:0] valids,
     output wire [  1:0] readies,
-    output wire [ 40:0] state
+    output wire [ 39:0] state
 );
-  wire rst, accept, weighted, soft_reset, s_axis_tvalid, s_axis_tlast, push_valid, push_last;
+  wire give_up, rst, accept, weighted, soft_reset, s_axis_tvalid, s_axis_tlast, push_valid, push_last;
   wire [63:0] s_axis_tdata, push_data;
-  assign {rst, accept, weighted, soft_reset, s_axis_tvalid, s_axis_tlast, push_valid, push_last, s_axis_tdata, push_data} = inputs;
+  assign {give_up, rst, accept, weighted, soft_reset, s_axis_tvalid, s_axis_tlast, push_valid, push_last, s_axis_tdata, push_data} = inputs;
   wire clear, beat_valid, beat_last, frame_start, beat_weighted, dut_from_push, dut_enough, dut_some;
   wire [63:0] beat_data;
   wire [ 1:0] beat_index, dut_state, dut_beat;
   wire [15:0] beat_weight;
-  wire [16:0] dut_count;
+  wire [15:0] dut_count;
   assign valids = {clear, frame_start, beat_valid, {beat_data, beat_index, beat_weight, beat_last} & {83{beat_valid}}};
   assign state = {beat_weight & {16{WEIGHTED == 1}}, beat_weighted, dut_some & WEIGHTED != 0, dut_enough, dut_from_push, dut_count, dut_beat,
                   dut_state};
@@ -267,6 +281,7 @@ module frame_loader_pins #(
       .accept(accept),
       .weighted(weighted),
       .soft_reset(soft_reset),
+      .give_up(give_up),
       .s_axis_tdata(s_axis_tdata),
       .s_axis_tvalid(s_axis_tvalid),
       .s_axis_tready(readies[0]),
@@ -290,7 +305,10 @@ module frame_loader_pins #(
       .few_rows(),
       .zero_weight(),
       .bad_tlast(),
-      .too_long()
+      .too_long(),
+      .open(),
+      .rows(),
+      .upset()
   );
 endmodule
 

@@ -25,7 +25,7 @@ module ivisnav_registers_properties #(
     input wire busy,
     input wire [2:0] state,
     input wire [2:0] ready,
-    input wire [8:0] flag_set,
+    input wire [10:0] flag_set,
     input wire frame_start,
     input wire frame_complete,
     input wire [15:0] rows,
@@ -71,11 +71,14 @@ module ivisnav_registers_properties #(
   wire [31:0] dut_data_a;
   wire [31:0] dut_data_b;
   wire [3:0] dut_write_strobe;
-  wire [8:0] dut_flags;
-  wire [8:0] dut_frame_flags;
+  wire [10:0] dut_flags;
+  wire [10:0] dut_frame_flags;
   wire [1:0] dut_irq_enable;
   wire [1:0] dut_irq_status;
   wire [15:0] dut_frame;
+  wire dut_write_address_parity, dut_flags_differ, upset;
+  wire [3:0] dut_write_parity, dut_variance_parity;
+  wire [1:0] dut_frac_parity;
 
   ivisnav_registers #(
       .MANTISSA(MANTISSA)
@@ -125,6 +128,7 @@ module ivisnav_registers_properties #(
       .result_valid(result_valid),
       .result_index(result_index),
       .irq(irq),
+      .upset(upset),
       .config_frac_h(config_frac_h),
       .config_frac_y(config_frac_y)
   );
@@ -134,12 +138,12 @@ module ivisnav_registers_properties #(
   wire [31:0] write_data, own_expected;
   wire [3:0] write_strobe;
   wire write_locked;
-  wire [8:0] own_raised;
+  wire [10:0] own_raised;
 
   core_registers_checker #(
       .ID(ID_RESET),
-      .BUILD(256 * MANTISSA),
-      .FLAGS(9),
+      .BUILD(8 + 256 * MANTISSA),
+      .FLAGS(11),
       .FRACS(2),
       .COUNT_ADDRESS(ROWS_ADDRESS),
       .FIRST_ADDRESS(CYCLES_RATES_ADDRESS),
@@ -179,8 +183,9 @@ module ivisnav_registers_properties #(
       .result_valid(result_valid),
       .result_index(result_index),
       .irq(irq),
+      .upset(upset),
       .config_frac({config_frac_y, config_frac_h}),
-      .flag_set(flag_set),
+      .flag_set(flag_set & ~11'b010_0100_0000),
       .frame_start(frame_start),
       .frame_complete(frame_complete),
       .weight(weight),
@@ -217,11 +222,16 @@ module ivisnav_registers_properties #(
       .dut_frame_flags(dut_frame_flags),
       .dut_irq_enable(dut_irq_enable),
       .dut_irq_status(dut_irq_status),
-      .dut_frame(dut_frame)
+      .dut_frame(dut_frame),
+      .dut_write_address_parity(dut_write_address_parity),
+      .dut_flags_differ(dut_flags_differ),
+      .dut_write_parity(dut_write_parity),
+      .dut_variance_parity(dut_variance_parity),
+      .dut_frac_parity(dut_frac_parity)
   );
 
   assign write_locked = 1'b0;
-  assign own_raised = 9'd0;
+  assign own_raised = 11'd0;
   assign own_expected = {read_at, 2'd0} == CONDITION_ADDRESS ? condition : 32'd0;
 endmodule
 

@@ -28,7 +28,7 @@ module oltae_registers_properties #(
     input wire busy,
     input wire [2:0] state,
     input wire [2:0] ready,
-    input wire [9:0] flag_set,
+    input wire [10:0] flag_set,
     input wire frame_start,
     input wire frame_complete,
     input wire [15:0] points,
@@ -78,11 +78,14 @@ module oltae_registers_properties #(
   wire [31:0] dut_data_a;
   wire [31:0] dut_data_b;
   wire [3:0] dut_write_strobe;
-  wire [9:0] dut_flags;
-  wire [9:0] dut_frame_flags;
+  wire [10:0] dut_flags;
+  wire [10:0] dut_frame_flags;
   wire [1:0] dut_irq_enable;
   wire [1:0] dut_irq_status;
   wire [15:0] dut_frame;
+  wire dut_write_address_parity, dut_flags_differ, upset;
+  wire [3:0] dut_write_parity, dut_variance_parity;
+  wire [0:0] dut_frac_parity;
 
   oltae_registers #(
       .WEIGHTED(WEIGHTED),
@@ -136,6 +139,7 @@ module oltae_registers_properties #(
       .result_valid(result_valid),
       .result_index(result_index),
       .irq(irq),
+      .upset(upset),
       .config_weighted(config_weighted),
       .config_forbid_turns(config_forbid_turns),
       .config_reapply(config_reapply),
@@ -148,12 +152,12 @@ module oltae_registers_properties #(
   wire [31:0] write_data, own_expected;
   wire [3:0] write_strobe;
   wire write_locked;
-  wire [9:0] own_raised;
+  wire [10:0] own_raised;
 
   core_registers_checker #(
       .ID(ID_RESET),
-      .BUILD((WEIGHTED != 0) + 2 * (COVARIANCE != 0) + 4 * (REAPPLY != 0) + 256 * MANTISSA),
-      .FLAGS(10),
+      .BUILD((WEIGHTED != 0) + 2 * (COVARIANCE != 0) + 4 * (REAPPLY != 0) + 8 + 256 * MANTISSA),
+      .FLAGS(11),
       .FRACS(1),
       .COUNT_ADDRESS(POINTS_ADDRESS),
       .FIRST_ADDRESS(CYCLES_Q_ADDRESS),
@@ -193,6 +197,7 @@ module oltae_registers_properties #(
       .result_valid(result_valid),
       .result_index(result_index),
       .irq(irq),
+      .upset(upset),
       .config_frac(config_frac),
       .flag_set(flag_set),
       .frame_start(frame_start),
@@ -231,13 +236,18 @@ module oltae_registers_properties #(
       .dut_frame_flags(dut_frame_flags),
       .dut_irq_enable(dut_irq_enable),
       .dut_irq_status(dut_irq_status),
-      .dut_frame(dut_frame)
+      .dut_frame(dut_frame),
+      .dut_write_address_parity(dut_write_address_parity),
+      .dut_flags_differ(dut_flags_differ),
+      .dut_write_parity(dut_write_parity),
+      .dut_variance_parity(dut_variance_parity),
+      .dut_frac_parity(dut_frac_parity)
   );
 
   // CONFIG: what is not built stays 0; asking for it raises NOT_BUILT, then and at every frame until CONFIG is written again
   localparam [3:0] BUILT = {COVARIANCE != 0, REAPPLY != 0, 1'b1, WEIGHTED != 0};
   wire [3:0] dut_configuration;
-  wire dut_asked;
+  wire dut_asked, dut_parity;
   wire to_config = write_now && {write_at, 2'd0} == CONFIG_ADDRESS;
   wire takes = to_config && write_strobe[0] && !busy;
   reg [3:0] configuration;
@@ -249,12 +259,12 @@ module oltae_registers_properties #(
     was_busy <= busy && !rst;
   end
   assign write_locked = busy && to_config;
-  assign own_raised = {(takes && asks) || (frame_start && asked), 9'd0};
+  assign own_raised = {1'b0, (takes && asks) || (frame_start && asked), 9'd0};
   assign own_expected = {read_at, 2'd0} == CONFIG_ADDRESS ? {28'd0, configuration} : {read_at, 2'd0} == TURN_ADDRESS ? {30'd0, turn} : 32'd0;
 
   wire [3:0] config_pins = {config_covariance, config_reapply, config_forbid_turns, config_weighted};
   always @(posedge clk) if (checking) begin
-    config_written : assert (config_pins == configuration && dut_asked == asked);
+    config_written : assert (config_pins == configuration && dut_asked == asked && dut_parity == ^{configuration, asked});
     config_built : assert ((config_pins & ~BUILT) == 4'd0);
     if (was_busy) config_locked : assert ($stable(config_pins));
   end

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // What result_store promises, for SymbiYosys (result_store.sby): a reader sees the word that was last committed, never one that was only
-// written, and 0 in every clock but that after its read. One index is followed (a task for each group): `seen` is what a reader must get
+// written, and 0 in every clock but that after its read; with verify nothing is written, and every other word than the one read is told. One index is followed (a task for each group): `seen` is what a reader must get
 // there, the other word what the frame under way has written. Every input is free in every clock. A word that a frame leaves out shows
 // the frame before the last one: the core must write every word of a group before it commits.
 `resetall
@@ -17,11 +17,12 @@ module result_store_properties #(
     input wire [ 5:0] write_index,
     input wire [31:0] write_data,
     input wire [ 2:0] commit,
+    input wire        verify,
     input wire        read_valid,
     input wire [ 5:0] read_index
 );
   wire [5:0] index = INDEX;
-  wire read_wait;
+  wire read_wait, differs;
   wire [31:0] read_data;
 
   result_store #(
@@ -34,6 +35,8 @@ module result_store_properties #(
       .write_index(write_index),
       .write_data(write_data),
       .commit(commit),
+      .verify(verify),
+      .differs(differs),
       .read_valid(read_valid),
       .read_index(read_index),
       .read_wait(read_wait),
@@ -54,19 +57,21 @@ module result_store_properties #(
   wire mine = index < MIDDLE_FIRST ? commit[0] : index < LAST_FIRST ? commit[1] : commit[2];
   wire [31:0] seen = bank ? word_1 : word_0;
   always @(posedge clk) begin
-    if (write_valid && write_index == index) begin
+    if (write_valid && !verify && write_index == index) begin
       if (bank) word_0 <= write_data;
       else word_1 <= write_data;
     end
     bank <= rst ? 1'b0 : bank ^ mine;
   end
 
-  reg was_read, was_mine;
+  reg was_read, was_mine, was_compared, was_other;
   reg [31:0] expected;
   always @(posedge clk) begin
     was_read <= read_valid && !read_wait;
     was_mine <= read_index == index;
     expected <= seen;
+    was_compared <= verify && write_valid && write_index == index;
+    was_other <= write_data != seen;
   end
 
   always @(posedge clk) if (started) begin
@@ -75,6 +80,8 @@ module result_store_properties #(
     same_words : assert (dut_word_0 == word_0 && dut_word_1 == word_1);
     if (!was_read) silent : assert (read_data == 32'd0);
     if (was_read && was_mine) committed_read : assert (read_data == expected);
+    if (was_compared) difference_told : assert (differs == was_other);
+    if (!$past(verify && write_valid)) no_difference : assert (!differs);
     if ($past(rst)) reset_bank : assert (dut_bank == 3'd0);
   end
 endmodule

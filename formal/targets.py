@@ -15,6 +15,8 @@ STATE = "axi/frame_state.v"
 FILE = "axi/core_registers.v"
 OLTAE = "axi/oltae_registers.v"
 IVISNAV = "axi/ivisnav_registers.v"
+VOTED = "trust/voted_register.v"
+TWIN = "trust/twin_register.v"
 DIGIT = "arith/srt_digit.v"
 RECIPROCAL = "arith/reciprocal.v"
 STORE = "axi/result_store.v"
@@ -30,124 +32,132 @@ def faults(task: str, file: str, *edits: tuple[str, str, str]) -> tuple[Broken, 
 
 
 GO = "wire write_go = address_full && data_full && !s_axil_bvalid;"
-IDLE_AGAIN = "s_axil_arready <= !(accept || issue || capture || (s_axil_rvalid && !s_axil_rready));"
+IDLE_AGAIN = "assign s_axil_arready = running && !(issue || capture || s_axil_rvalid);"
+ADDRESS_FREE = "assign s_axil_awready = running && !address_full;"
+DATA_FREE = "assign s_axil_wready  = running && !data_full;"
+MAJORITY = "assign q = (first & second) | (first & third) | (second & third);"
 
 SLAVE_PROTOCOL = faults(
     "protocol_bmc",
     SLAVE,
-    ("b_stays", "end else if (s_axil_bready) begin", "end else begin"),
+    ("b_stays", "write_go || (s_axil_bvalid && !s_axil_bready)}", "write_go}"),
     ("b_needs_data", GO, "wire write_go = address_full && !s_axil_bvalid;"),
     ("b_needs_address", GO, "wire write_go = data_full && !s_axil_bvalid;"),
     ("write_once", GO, "wire write_go = address_full && data_full;"),
     ("b_comes", GO, "wire write_go = address_full && data_full && !s_axil_bvalid && s_axil_bready;"),
     (
         "b_not_early",
-        "if (write_go) begin",
-        "if (address_full && data_full || address_full && s_axil_wvalid) begin",
+        "write_go || (s_axil_bvalid &&",
+        "(address_full && (data_full || s_axil_wvalid)) || (s_axil_bvalid &&",
     ),
-    ("one_address_waits", "s_axil_awready <= !next_address_full;", "s_axil_awready <= !address_full;"),
-    ("one_data_waits", "s_axil_wready  <= !next_data_full;", "s_axil_wready  <= !data_full;"),
-    (
-        "awready_when_free",
-        "s_axil_awready <= !next_address_full;",
-        "s_axil_awready <= !next_address_full && !next_data_full;",
-    ),
-    (
-        "wready_when_free",
-        "s_axil_wready  <= !next_data_full;",
-        "s_axil_wready  <= next_address_full && !next_data_full;",
-    ),
-    ("b_error", "write_failed  <= write_error || !write_aligned;", "write_failed  <= write_error;"),
-    ("write_once", "assign write_valid  = write_go && write_aligned;", "assign write_valid  = write_go;"),
+    ("one_address_waits", ADDRESS_FREE, ADDRESS_FREE.replace("address_full", "(address_full && data_full)")),
+    ("one_data_waits", DATA_FREE, DATA_FREE.replace("data_full", "(address_full && data_full)")),
+    ("awready_when_free", ADDRESS_FREE, ADDRESS_FREE.replace("address_full", "(address_full || data_full)")),
+    ("wready_when_free", DATA_FREE, DATA_FREE.replace("!data_full", "!data_full && address_full")),
+    ("b_error", "write_failed <= write_error || !write_fits;", "write_failed <= write_error;"),
+    ("write_once", "= write_go && write_fits;", "= write_go;"),
     ("strobe_handed_on", "write_strobe <= s_axil_wstrb;", "write_strobe <= 4'hF;"),
     ("write_handed_on", "if (s_axil_wready) begin", "if (s_axil_wvalid) begin"),
-    ("b_reset", "s_axil_wready  <= 1'b0;\n      s_axil_bvalid  <= 1'b0;", "s_axil_wready  <= 1'b0;"),
-    ("r_stays", "else if (s_axil_rready) s_axil_rvalid <= 1'b0;", "else s_axil_rvalid <= 1'b0;"),
+    (
+        "parity_handed_on",
+        "write_parity <= write_odd;",
+        "write_parity <= {write_odd[3:2], write_odd[0], write_odd[1]};",
+    ),
+    ("no_false_alarm", "write_parity <= write_odd;", "write_parity <= {write_odd[3:1], write_odd[1]};"),
+    (
+        "b_reset",
+        ") write_register (\n      .clk(clk),\n      .rst(rst),",
+        ") write_register (\n      .clk(clk),\n      .rst(1'b0),",
+    ),
+    ("r_stays", "capture || (s_axil_rvalid && !s_axil_rready)}", "capture}"),
     ("r_stays", "if (capture) s_axil_rdata <= read_data;", "s_axil_rdata <= read_data;"),
     (
         "r_needs_request",
-        "issue   <= accept || (issue && read_wait);",
-        "issue   <= s_axil_arvalid || (issue && read_wait);",
+        "accept || (issue && read_wait)",
+        "s_axil_arvalid || (issue && read_wait)",
     ),
     ("arready_when_free", IDLE_AGAIN, IDLE_AGAIN.replace("capture || ", "")),
-    ("arready_comes", IDLE_AGAIN, IDLE_AGAIN.replace("issue ||", "issue || !s_axil_arvalid ||")),
+    ("arready_comes", IDLE_AGAIN, IDLE_AGAIN.replace("issue ||", "issue || s_axil_arvalid ||")),
     ("r_answer", "if (go) read_failed <= read_error || !read_aligned;", "if (go) read_failed <= read_error;"),
+    ("r_comes", "capture || (s_axil_rvalid &&", "(capture && s_axil_rready) || (s_axil_rvalid &&"),
+    ("read_once", "= issue && read_aligned;", "= issue;"),
+    ("read_once", "accept || (issue && read_wait)", "accept"),
+    ("read_handed_on", "if (s_axil_arready) begin", "if (s_axil_arvalid) begin"),
     (
-        "r_comes",
-        "if (capture) s_axil_rvalid <= 1'b1;",
-        "if (capture && s_axil_rready) s_axil_rvalid <= 1'b1;",
+        "r_reset",
+        ") read_register (\n      .clk(clk),\n      .rst(rst),",
+        ") read_register (\n      .clk(clk),\n      .rst(1'b0),",
     ),
-    ("read_once", "assign read_valid   = issue && read_aligned;", "assign read_valid   = issue;"),
-    ("read_once", "issue   <= accept || (issue && read_wait);", "issue   <= accept;"),
-    ("read_handed_on", "if (s_axil_arready) read_address", "if (s_axil_arvalid) read_address"),
-    ("r_reset", "capture        <= 1'b0;\n      s_axil_rvalid  <= 1'b0;", "capture        <= 1'b0;"),
 )
 
-SLAVE_PINS = (
-    Broken(
-        "dependence_bmc",
-        SLAVE,
-        f"    {IDLE_AGAIN}\n    if (rst) begin\n      s_axil_arready <= 1'b0;",
-        "    if (rst) begin",
+SLAVE_PINS = faults(
+    "dependence_bmc",
+    SLAVE,
+    (
         "ready_valid_registered",
-        also=(
-            (
-                "  wire go = issue && !read_wait;",
-                "  wire go = issue && !read_wait;\n"
-                "  always @* s_axil_arready = !(issue || capture || (s_axil_rvalid && !s_axil_rready));",
-            ),
-        ),
+        IDLE_AGAIN,
+        IDLE_AGAIN.replace("s_axil_rvalid", "(s_axil_rvalid && !s_axil_rready)"),
     ),
 )
 
-READY = "wire ready = (to_array && beat_ready) || (taken_here && !soft_reset);"
+READY = "wire ready = (to_array && beat_ready) || (taken_here && !hold);"
 VALID = "assign beat_valid = to_array && valid;"
 
 STORE_FAULTS = faults(
     "middle_bmc",
     STORE,
     ("waits_for_writes", "assign read_wait = write_valid;", "assign read_wait = write_valid && read_valid;"),
-    ("committed_read", "{!write_bank, write_index}", "{write_bank, write_index}"),
+    ("committed_read", "{write_bank == compare, write_index}", "{write_bank, write_index}"),
+    ("difference_told", "{write_bank == compare, write_index}", "{!write_bank, write_index}"),
+    ("difference_told", "memory[address] != write_data;", "memory[address] < write_data;"),
+    ("no_difference", "differs <= compare && write_valid &&", "differs <= compare &&"),
+    ("same_words", "if (write_valid && !compare)", "if (write_valid)"),
     ("committed_read", ": read_index < LAST_FIRST ?", ": read_index < LAST_FIRST - 1 ?"),
     ("committed_read", "write_index < LAST_FIRST ? bank[1]", "write_index < LAST_FIRST ? bank[0]"),
     ("silent", "read_valid && !write_valid ?", "!write_valid ?"),
-    ("reset_bank", "bank <= rst ? 3'd0 : bank ^ commit;", "bank <= bank ^ commit;"),
+    ("reset_bank", ".rst(rst),", ".rst(1'b0),"),
 )
 
 LOADER_FRONT = (
     *faults(
         "front_bmc",
         LOADER,
-        ("no_beat_lost", READY, "wire ready = to_array || (taken_here && !soft_reset);"),
-        ("beats_add_up", READY, "wire ready = to_array || (taken_here && !soft_reset);"),
+        ("no_beat_lost", READY, "wire ready = to_array || (taken_here && !hold);"),
+        ("beats_add_up", READY, "wire ready = to_array || (taken_here && !hold);"),
         (
             "no_beat_twice",
             READY,
-            "wire ready = (to_array && beat_ready && !last) || (taken_here && !soft_reset);",
+            "wire ready = (to_array && beat_ready && !last) || (taken_here && !hold);",
         ),
         ("no_beat_made", VALID, "assign beat_valid = to_array && (valid || push_valid);"),
         ("beat_stays", VALID, "assign beat_valid = to_array && valid && !weighted;"),
         ("beat_unchanged", "assign beat_data = from_push ?", "assign beat_data = push_valid ?"),
-        ("beat_in_place", "beat <= closing && !beat_weighted ?", "beat <= closing ?"),
-        ("weight_right", "weight <= beat_data[15:0];", "weight <= {1'b0, beat_data[14:0]};"),
+        ("beat_in_place", "(closing && !beat_weighted ?", "(closing ?"),
+        ("weight_right", ".d(beat_data[15:0]),", ".d({1'b0, beat_data[14:0]}),"),
         ("mode_right", "assign beat_weighted = mode;", "assign beat_weighted = weighted;"),
-        ("opens", "assign clear = state == IDLE && accept &&", "assign clear = state == IDLE &&"),
+        ("opens", "assign clear = !open && accept &&", "assign clear = !open &&"),
         ("clears", "assign frame_start = clear;", "assign frame_start = clear && !push_valid;"),
-        ("closed_takes_none", "wire to_array = state == LOAD &&", "wire to_array = state != SWALLOW &&"),
-        ("reset_takes_none", "&& !full && !soft_reset;", "&& !full;"),
-        ("closed_by_reset", "if (rst || soft_reset) state <= IDLE;", "if (rst) state <= IDLE;"),
+        ("closed_takes_none", "wire to_array = load &&", "wire to_array = !swallow &&"),
+        ("reset_takes_none", "wire hold = soft_reset || (give_up && load);", "wire hold = give_up && load;"),
+        ("abort_takes_none", "wire hold = soft_reset || (give_up && load);", "wire hold = soft_reset;"),
+        ("takes", "wire hold = soft_reset || (give_up && load);", "wire hold = soft_reset || give_up;"),
+        ("closed_by_reset", "if (soft_reset) next_state = IDLE;", ""),
+        ("no_beat_made", "|| (give_up && load)) next_state = SWALLOW;", ") next_state = SWALLOW;"),
+        ("open_right", "assign open = load || swallow;", "assign open = load;"),
+        ("rows_right", "else if (row_done) count <=", "else if (row_done && !beat_last) count <="),
+        ("no_false_alarm", ".load(take),", ".load(take && !s_axis_tvalid),"),
         ("one_source", "assign s_axis_tready = ready && !from_push;", "assign s_axis_tready = ready;"),
         (
             "push_told",
-            "push_open = state == IDLE ? accept : from_push;",
-            "push_open = state == IDLE || from_push;",
+            "push_open = !open ? accept : from_push;",
+            "push_open = !open || from_push;",
         ),
         ("drops_once", "assign frame_dropped = ends && !frame_end;", "assign frame_dropped = ends && !good;"),
         ("last_marked", "assign beat_last = last && closing && good;", "assign beat_last = last && closing;"),
-        ("zero_right", "some   <= !weighted;", "some   <= 1'b0;"),
+        ("zero_right", "some <= !weighted;", "some <= 1'b0;"),
         (
             "drop_told",
-            "assign bad_tlast = ends && state == LOAD && !closing && !full;",
+            "assign bad_tlast = ends && load && !closing && !full;",
             "assign bad_tlast = 1'b0;",
         ),
         (
@@ -161,10 +171,10 @@ LOADER_FRONT = (
         LOADER,
         (
             "takes",
-            "wire taken_here = state == SWALLOW ||",
-            "wire taken_here = (state == SWALLOW && beat_ready) ||",
+            "wire taken_here = swallow ||",
+            "wire taken_here = (swallow && beat_ready) ||",
         ),
-        ("long_right", "wire full = count[16] && first;", "wire full = count[15] && first;"),
+        ("long_right", "wire full = count == 16'hFFFF && first;", "wire full = count == 16'h7FFF && first;"),
         ("ends_once", "assign frame_end = ends_row && good;", "assign frame_end = ends_row && enough;"),
         ("tlast_right", "&& !closing && !full;", "&& !closing;"),
     ),
@@ -188,44 +198,64 @@ LOADER_INSIDE = (
 LOADER_PLAIN = faults(
     "plain_deep",
     LOADER,
-    ("long_right", "assign too_long = fire && state == LOAD && full;", "assign too_long = fire && full;"),
-    ("no_beat_lost", "else if (full) state <= SWALLOW;", "else if (count[15]) state <= SWALLOW;"),
+    ("long_right", "assign too_long = fire && load && full;", "assign too_long = fire && full;"),
+    ("no_beat_lost", "(fire && load && full) ||", "(fire && load && count[15]) ||"),
 )
 
 STATE_FAULTS = (
     *faults(
         "short_bmc",
         STATE,
-        ("reset_to_idle", "if (soft_reset | watchdog | rst)", "if (soft_reset | rst)"),
-        ("compute_bounded", "computing & cycles[WATCHDOG_BITS];", "computing & cycles[15];"),
-        ("watchdog_right", "assign watchdog = computing & cycles", "assign watchdog = cycles"),
+        ("reset_to_idle", "soft_reset | watchdog | upset;", "soft_reset | upset;"),
+        ("reset_to_idle", "soft_reset | watchdog | upset;", "soft_reset | watchdog;"),
+        (
+            "compute_bounded",
+            "(computing | verifying) & cycles[WATCHDOG_BITS];",
+            "(computing | verifying) & cycles[15];",
+        ),
+        (
+            "watchdog_right",
+            "assign watchdog = (computing | verifying) & cycles",
+            "assign watchdog = computing & cycles",
+        ),
         ("commit_in_compute", "assign commit = done & {3{computing}};", "assign commit = done;"),
-        ("done_held", "else if (acknowledge) state <= IDLE;", "else state <= IDLE;"),
+        ("done_held", "else if (acknowledge) state_next = IDLE;", "else state_next = IDLE;"),
         ("accept_when_idle", "assign accept = ~busy;", "assign accept = state == IDLE;"),
         ("begins_accepted", "assign accept = ~busy;", "assign accept = 1'b1;"),
-        ("idle_left", "IDLE: if (frame_start) state", "IDLE: if (frame_start & ~acknowledge) state"),
+        (
+            "idle_left",
+            "IDLE: if (frame_start) state_next",
+            "IDLE: if (frame_start & ~acknowledge) state_next",
+        ),
         (
             "loading_left",
-            "if (frame_end) state <= COMPUTE;",
-            "if (frame_end | frame_dropped) state <= COMPUTE;",
+            "if (frame_end) state_next = COMPUTE;",
+            "if (frame_end | frame_dropped) state_next = COMPUTE;",
         ),
-        ("compute_left", "if (refused) state <= IDLE;", "if (refused) state <= DONE;"),
-        ("busy_told", "assign busy = state == LOADING | computing;", "assign busy = computing;"),
-        ("results_told", "ready  <= rst | frame_start ? 3'd0 :", "ready  <= rst ? 3'd0 :"),
-        ("results_told", "cycles <= frame_end ? 16'd1 :", "cycles <= frame_end ? 16'd0 :"),
-        ("named_state", "else if (done[2]) state <= DONE;", "else if (done[2]) state <= 3'd7;"),
+        ("compute_left", "if (refused) state_next = IDLE;", "if (refused) state_next = DONE;"),
+        (
+            "busy_told",
+            "assign busy = loading | computing | verifying;",
+            "assign busy = computing | verifying;",
+        ),
+        ("results_told", "frame_start | (busy & (upset | watchdog)) ? 3'd0 :", "frame_start ? 3'd0 :"),
+        ("results_told", "cycles    <= frame_end ? 16'd1 :", "cycles    <= frame_end ? 16'd0 :"),
+        ("named_state", "VERIFY != 0 ? VERIFYING : DONE;", "3'd7;"),
+        ("completes_verified", "verifying & repeated & ~given_up : solved;", "solved : solved;"),
+        ("verify_left", "else if (repeated) state_next = DONE;", "else if (done[2]) state_next = DONE;"),
+        ("forgets", "again_1   <= solved;", "again_1   <= computing & done[2];"),
     ),
     *faults(
         "short_bmc",
         LOADER,
-        ("loads_only", "if (rst || soft_reset) state <= IDLE;", "if (rst) state <= IDLE;"),
-        ("ends_loaded", "if (rst || soft_reset) state <= IDLE;", "if (rst) state <= IDLE;"),
+        ("loads_only", "if (soft_reset) next_state = IDLE;", ""),
+        ("ends_loaded", "if (soft_reset) next_state = IDLE;", ""),
     ),
 )
 
 READ_BITS = "if (!(read_low && (at_flags || at_frame_flags || at_frac))) bits"
-FLAGS_NEXT = "flags <= (flags & ~(ones & {FLAGS{to_flags}})) | raised;"
-IRQ_NEXT = "(irq_status & ~(write_data[1:0] & {2{to_irq_status}})) | {|raised, frame_complete};"
+FLAGS_NEXT = "(flags & ~(ones & {FLAGS{to_flags}})) | raised"
+IRQ_NEXT = "(irq_status & ~(write_data[1:0] & {2{to_irq_status}})) | {|raised, frame_complete}"
 
 FILE_FAULTS = (
     *faults(
@@ -254,37 +284,42 @@ FILE_FAULTS = (
         ),
         ("variance_written", "if (to_variance && write_strobe[b] && !busy)", "if (to_variance && !busy)"),
         ("control_pulses", "to == CONTROL_ADDRESS[6:2] && write_strobe[0];", "to == CONTROL_ADDRESS[6:2];"),
-        ("push_written", "if (to_push && !push_locked) begin", "if (to_push) begin"),
+        ("push_written", "wire push_taken = to_push && !push_locked;", "wire push_taken = to_push;"),
         (
             "push_stays",
             "if (to_data_b && write_strobe[b] && !push_waits)",
             "if (to_data_b && write_strobe[b])",
         ),
-        ("push_last_written", "write_data[PUSH_LAST_LSB] && write_strobe[0];", "write_data[PUSH_LAST_LSB];"),
-        ("flags_right", FLAGS_NEXT, "flags <= (flags | raised) & ~(ones & {FLAGS{to_flags}});"),
-        ("flags_right", FLAGS_NEXT, "flags <= (to_flags ? {FLAGS{1'b0}} : flags) | raised;"),
+        ("push_last_written", "write_data[PUSH_LAST_LSB] && write_strobe[0]", "write_data[PUSH_LAST_LSB]"),
+        ("flags_right", FLAGS_NEXT, "(flags | raised) & ~(ones & {FLAGS{to_flags}})"),
+        ("flags_right", FLAGS_NEXT, "(to_flags ? {FLAGS{1'b0}} : flags) | raised"),
         ("flags_right", "{{FLAGS - 8{write_strobe[1]}}, {8{write_strobe[0]}}}", "{FLAGS{write_strobe[0]}}"),
-        ("frame_flags_right", "~{FLAGS{frame_start}}) | raised;", "~{FLAGS{frame_start}}) | flag_set;"),
+        ("frame_flags_right", "~{FLAGS{frame_start}}) | raised,", "~{FLAGS{frame_start}}) | flag_set,"),
         (
             "irq_right",
             IRQ_NEXT,
-            "(irq_status | {|raised, frame_complete}) & ~(write_data[1:0] & {2{to_irq_status}});",
+            "(irq_status | {|raised, frame_complete}) & ~(write_data[1:0] & {2{to_irq_status}})",
         ),
-        ("irq_right", "if (to_irq_enable) irq_enable", "if (to_irq_enable && !busy) irq_enable"),
-        ("irq_level", "irq <= |(irq_enable & irq_status);", "irq <= |irq_status;"),
+        ("irq_right", "to_irq_enable ? write_data", "to_irq_enable && !busy ? write_data"),
+        ("irq_level", "<= |(irq_enable & irq_status);", "<= |irq_status;"),
         (
             "frame_counted",
-            "if (frame_complete) frame <= frame + 16'd1;",
-            "if (frame_complete) frame <= frame + 16'd1;\n"
-            "    if (write_low && to == STATUS_ADDRESS[6:2]) frame <= write_data[31:16];",
+            "frame + {15'd0, frame_complete}",
+            "write_low && to == STATUS_ADDRESS[6:2] ? write_data[31:16] : frame + {15'd0, frame_complete}",
         ),
+        (
+            "no_false_alarm",
+            "variance_parity[b] <= write_parity[b];",
+            "variance_parity[b] <= write_parity[0];",
+        ),
+        ("no_false_alarm", "variance_parity[b] <= ~^", "variance_parity[b] <= ^"),
     ),
     *faults(
         "full_bmc",
         SLAVE,
-        ("b_stays", "end else if (s_axil_bready) begin", "end else begin"),
-        ("r_stays", "else if (s_axil_rready) s_axil_rvalid <= 1'b0;", "else s_axil_rvalid <= 1'b0;"),
-        ("read_answer_due", "issue   <= accept || (issue && read_wait);", "issue   <= accept;"),
+        ("b_stays", "write_go || (s_axil_bvalid && !s_axil_bready)}", "write_go}"),
+        ("r_stays", "capture || (s_axil_rvalid && !s_axil_rready)}", "capture}"),
+        ("read_answer_due", "accept || (issue && read_wait)", "accept"),
     ),
     *faults(
         "full_bmc",
@@ -299,7 +334,8 @@ FILE_FAULTS = (
 BARE_FAULTS = faults(
     "bare_bmc",
     OLTAE,
-    ("config_built", "configuration <= write_data[3:0] & BUILT;", "configuration <= write_data[3:0];"),
+    ("config_built", "wire [3:0] given = write_data[3:0] & BUILT;", "wire [3:0] given = write_data[3:0];"),
+    ("no_false_alarm", "parity <= ^{given, asks};", "parity <= ^given;"),
     ("flags_right", "(set_config && asks) || (frame_start && asked);", "(set_config && asks);"),
 )
 
@@ -309,6 +345,7 @@ IVISNAV_FAULTS = (
         IVISNAV,
         ("read_returns", "read_valid && read_word == CONDITION_ADDRESS[11:2] ?", "read_valid ?"),
         ("read_error", ".read_mapped(is_mapped(read_word))", ".read_mapped(1'b1)"),
+        ("flags_right", ".flag_set(flag_set & ~GAPS)", ".flag_set(flag_set)"),
     ),
     *faults(
         "bmc",
@@ -399,6 +436,19 @@ RECOMBINE_FAULTS = faults(
 GROUPS = (
     Group("axil_slave", "protocol_prove", "AXI4-Lite: answers, stability, SLVERR, accesses", SLAVE_PROTOCOL),
     Group("axil_slave", "dependence_prove", "no ready or valid depends on an input of its clock", SLAVE_PINS),
+    *(
+        Group(
+            "axil_slave",
+            f"{copy}_prove",
+            f"AXI4-Lite as above while the {copy} copy of every voted bit is anything in every clock",
+            faults(f"{copy}_bmc", VOTED, (label, MAJORITY, f"assign q = {fault};")),
+        )
+        for copy, label, fault in (
+            ("first", "b_stays", "first"),
+            ("second", "r_stays", "second & (first | third)"),
+            ("third", "awready_when_free", "third | (first & second)"),
+        )
+    ),
     Group(
         "oltae_registers", "full_prove", "register map: write, read, W1C, locks, push, interrupt", FILE_FAULTS
     ),
@@ -439,7 +489,7 @@ GROUPS = (
         "frame_state",
         "upset_prove",
         "a state without a name is left at once",
-        faults("upset_bmc", STATE, ("upset_left", "default: state <= IDLE;", "default: ;")),
+        faults("upset_bmc", STATE, ("upset_left", "default: state_next = IDLE;", "default: ;")),
     ),
     Group(
         "result_store",

@@ -7,22 +7,25 @@ import hashlib
 import json
 import re
 import tomllib
-from collections.abc import Sequence
+from collections import Counter
+from collections.abc import Iterable, Mapping
 from dataclasses import asdict, dataclass, field
 from pathlib import Path
 from typing import Any
 
 from mutate import netlist
-from mutate.benches import core_tests, first_tests, modules
-from mutate.trial import Outcome, attempt, relative, warm
-from sim.sources import ROOT, RTL
+from mutate.benches import TB, core_tests, first_tests, modules
+from mutate.trial import attempt, processor, relative, warm
+from sim.sources import ROOT
 
 BUILD = ROOT / "build" / "mutate"
+_IMPORT = re.compile(r"^from (tb[\w.]*) import (\([^)]*\)|[^\n]*)", re.MULTILINE)
 EQUIVALENTS = Path(__file__).parent / "equivalents.toml"
 SEED = 1
 PROVED = "proved by SAT: no output, next state or input of an instance changes, whatever the state"
 SLOWER, GRACE = 5.0, 20.0
-"""A simulation may take so many times as long as with the right netlist, and so many seconds more."""
+"""A simulation may take so many times as long as with the right netlist, and so many seconds more, of the
+processor."""
 
 
 @dataclass
@@ -53,7 +56,8 @@ class Result:
     """Of the module's text; what equivalents.toml is checked against."""
     fates: list[Fate] = field(default_factory=list)
     error: str = ""
-    seconds: float = 0.0
+    before: float = 0.0
+    """Seconds of the processor before the first mutant: netlists, builds, tests with the right netlist."""
 
     def count(self, *states: str) -> int:
         """How many mutants ended so."""
@@ -109,12 +113,27 @@ def run_module(
     return result
 
 
-def _contents(folders: Sequence[Path]) -> str:
-    """Of the files in some folders."""
-    found = sorted(
-        file for folder in folders for file in folder.rglob("*") if file.suffix in (".py", ".v", ".vh")
-    )
-    return hashlib.sha256(b"".join(file.read_bytes() for file in found)).hexdigest()[:12]
+def bench_files(bench: Path) -> list[Path]:
+    """What the tests in a folder of tb/ are made of: its files, and those of tb/ that they import."""
+    found: set[Path] = set()
+    fresh = [file for file in bench.iterdir() if file.suffix in (".py", ".v")]
+    while fresh:
+        file = fresh.pop()
+        if file in found:
+            continue
+        found.add(file)
+        if file.suffix != ".py":
+            continue
+        for package, names in _IMPORT.findall(file.read_text()):
+            place = TB.parent.joinpath(*package.split("."))
+            fresh += [one for one in place.glob("*") if one.suffix == ".v" or one.name == "__init__.py"]
+            near = [place.with_suffix(".py"), *((place / f"{name}.py") for name in re.findall(r"\w+", names))]
+            fresh += [one for one in near if one.is_file()]
+    return sorted(found)
+
+
+def _contents(files: Iterable[Path]) -> str:
+    return hashlib.sha256(b"".join(file.read_bytes() for file in files)).hexdigest()[:12]
 
 
 @dataclass(frozen=True)
@@ -127,15 +146,22 @@ class Probe:
 
 
 def probe_folder(bench: Path) -> dict[str, Probe]:
-    """The tests of a folder of tb/ that run on Icarus. Kept as long as neither they nor rtl/ change.
+    """The tests of a folder of tb/ that run on Icarus. Kept as long as neither they nor the modules change.
 
     Raises RuntimeError where one fails.
     """
     folder = BUILD / "probes" / bench.name
     folder.mkdir(parents=True, exist_ok=True)
-    signature = _contents([bench, ROOT / "tb" / "common", RTL])
     file = folder / "probe.json"
-    if not file.is_file() or json.loads(file.read_text())["signature"] != signature:
+
+    def signature(names: Iterable[str]) -> str:
+        texts = [fingerprint(module) if module in modules() else "none" for module in sorted(set(names))]
+        return " ".join([_contents(bench_files(bench)), *texts])
+
+    known: dict[str, Any] = {"signature": "", "used": []}
+    if file.is_file():
+        known.update(json.loads(file.read_text()))
+    if known["signature"] != signature(known["used"]):
         report = folder / "report.txt"
         copies = {module: folder / "rtl" / f"{module}.v" for module in modules()}
         (folder / "rtl").mkdir(exist_ok=True)
@@ -148,18 +174,67 @@ def probe_folder(bench: Path) -> dict[str, Probe]:
         seen = attempt(quick, folder, copies, report=report, limit=1800.0)
         if seen.state != "passed":
             raise RuntimeError(f"{seen.test} {seen.state} without a mutant: {seen.text[-300:]}")
-        found = {test: [seen.durations[test], sorted(set(lines))] for test, lines in seen.reports.items()}
-        file.write_text(json.dumps({"signature": signature, "tests": found}, indent=1) + "\n")
-    listed: dict[str, Any] = json.loads(file.read_text())["tests"]
+        found = {test: (seen.durations[test], sorted(set(lines))) for test, lines in seen.reports.items()}
+        used = sorted({line.split()[0] for _, lines in found.values() for line in lines})
+        known = {"signature": signature(used), "used": used, "tests": found}
+        file.write_text(json.dumps(known, indent=1) + "\n")
     return {
         test: Probe(seconds, frozenset(netlist.read_probe(line) for line in lines))
-        for test, (seconds, lines) in listed.items()
+        for test, (seconds, lines) in known["tests"].items()
     }
 
 
 def _words(test: str) -> list[str]:
     """The parts of a test's parameters."""
     return test.rpartition("[")[2].rstrip("]").split("-")
+
+
+class _Tests:
+    """Tests on the stand-in of one module. Each passes with the right netlist before it is given mutants."""
+
+    def __init__(self, module: str, file: Path, folder: Path) -> None:
+        self.replaced = {module: file}
+        self.folder = folder
+        self.seconds: dict[str, float] = {}
+        self.before: list[float] = []
+        self.tried: Counter[str] = Counter()
+        self.killed: Counter[str] = Counter()
+        (folder / "right").mkdir(exist_ok=True)
+
+    def order(self, tests: Iterable[str], before: Mapping[str, float]) -> list[str]:
+        """Those first that kill most for their time."""
+
+        def price(test: str) -> float:
+            share = (self.killed[test] + 0.5) / (self.tried[test] + 1)
+            return self.seconds.get(test, before.get(test, 0.0)) / share
+
+        return sorted(tests, key=price)
+
+    def judge(self, fate: Fate, tests: Iterable[str]) -> None:
+        """Give a mutant to one test after the other until one kills it."""
+        for test in tests:
+            if test not in self.seconds:
+                right = attempt([test], self.folder, self.replaced, right=self.folder / "right")
+                if right.state != "passed":
+                    raise RuntimeError(
+                        f"the netlist without a mutation: {right.state} {right.test} {right.text[-300:]}"
+                    )
+                self.seconds[test] = right.durations[test]
+                self.before.append(right.seconds)
+            limit = GRACE + SLOWER * self.seconds[test]
+            for right_results in (self.folder / "right", None):
+                outcome = attempt(
+                    [test], self.folder, self.replaced, number=fate.number, limit=limit, right=right_results
+                )
+                fate.seconds = round(fate.seconds + outcome.seconds, 2)
+                if outcome.state != "passed" or not outcome.short:
+                    break
+            self.tried[test] += 1
+            if outcome.state != "passed":
+                fate.state = {"failed": "killed", "timeout": "timeout"}.get(outcome.state, "invalid")
+                fate.by = relative(outcome.test or test)
+                self.killed[test] += 1
+                return
 
 
 def _run(result: Result, folder: Path, count: int | None, seed: int, deep: bool, forget: bool) -> None:
@@ -175,11 +250,15 @@ def _run(result: Result, folder: Path, count: int | None, seed: int, deep: bool,
         raise RuntimeError("no test that runs on Icarus has the module in it")
     ids = warm([str(bench) for bench in benches], folder / "collect.log")
 
+    start = processor()
     file, mutants = netlist.make(module, used, count, seed, folder / "netlist")
-    order = sorted(uses, key=lambda test: probes[test].seconds)
+    result.before = processor() - start
+    tests = _Tests(module, file, folder)
+    before = {test: probe.seconds for test, probe in probes.items()}
     known = equivalents(module)
     memory = folder / "known.jsonl"
-    signature = fingerprint(module) + _contents([*benches, ROOT / "tb" / "common", Path(__file__).parent])
+    used_files = {one for bench in benches for one in bench_files(bench)}
+    signature = f"{fingerprint(module)} {_contents(sorted(used_files))}"
     kept: dict[str, Fate] = {}
     if memory.is_file() and not forget:
         for line in memory.read_text().splitlines():
@@ -191,7 +270,6 @@ def _run(result: Result, folder: Path, count: int | None, seed: int, deep: bool,
         with memory.open("a") as out:  # of two lines about a mutant the last counts
             out.write(json.dumps({**asdict(fate), "signature": signature}) + "\n")
 
-    sound: set[str] = set()  # tests that pass with the netlist as it should be
     for mutant in mutants:
         fate = Fate(mutant.number, mutant.key, mutant.wire, mutant.source, "survived")
         if mutant.key in known:
@@ -200,68 +278,23 @@ def _run(result: Result, folder: Path, count: int | None, seed: int, deep: bool,
             fate = kept[mutant.key]
             fate.number = mutant.number
         else:
-            concerned = [test for test in order if mutant.values in uses[test]]
-            times = [probes[test].seconds for test in concerned]
-            limit, whole = GRACE + SLOWER * max(times), GRACE + SLOWER * sum(times)
-            outcome = attempt(
-                concerned, folder, {module: file}, number=mutant.number, limit=limit, whole=whole
-            )
-            if outcome.test and outcome.test not in sound:
-                right = attempt([outcome.test], folder, {module: file}, limit=limit)
-                if right.state != "passed":
-                    raise RuntimeError(
-                        f"the netlist without a mutation: {right.state} {right.test} {right.text[-300:]}"
-                    )
-            sound |= {outcome.test, *outcome.durations}
-            _judge(fate, outcome)
+            tests.judge(fate, tests.order((test for test in uses if mutant.values in uses[test]), before))
             if fate.state == "survived" and netlist.proved_equivalent(module, mutant, folder / "netlist"):
                 fate.state, fate.reason = "equivalent", PROVED
             keep(fate)
         result.fates.append(fate)
-        result.seconds += fate.seconds
-    if deep:
-        _second_chance(
-            result, folder, file, [test for test in ids if "verilator" in _words(test)], "verilator"
-        )
-        if _alive(result):
-            cores = warm([str(place) for place in core_tests(module)], folder / "collect.log")
-            ports = [test for test in cores if "verilator" in _words(test) and "test_ports" in test]
-            _second_chance(result, folder, file, ports, "core")
+    result.before += sum(tests.before)
+    if deep and _alive(result):
+        cores = warm([str(place) for place in core_tests(module)], folder / "collect.log")
+        ports = [test for test in cores if "test_ports" in test]
+        for chosen in (ids, ports):
+            for fate in _alive(result):
+                tests.judge(fate, [test for test in chosen if "verilator" in _words(test)])
+        for fate in _alive(result):
+            fate.deep = True
         for fate in result.fates:
-            if fate.state == "survived" or fate.deep:
-                fate.deep = True
-                keep(fate)
+            keep(fate)
 
 
 def _alive(result: Result) -> list[Fate]:
     return [fate for fate in result.fates if fate.state == "survived" and not fate.deep]
-
-
-def _second_chance(result: Result, folder: Path, file: Path, chosen: Sequence[str], stage: str) -> None:
-    """Give survivors to further tests, one build for all of them."""
-    if not _alive(result) or not chosen:
-        return
-    right = attempt(chosen, folder, {result.module: file})
-    if right.state != "passed":
-        result.error = f"{stage}: without a mutation: {right.state} {right.test} {right.text[-300:]}"
-        return
-    order = sorted(chosen, key=lambda test: right.durations.get(test, 0.0))
-    for fate in _alive(result):
-        limit = GRACE + SLOWER * max(right.durations.values())
-        whole = GRACE + SLOWER * sum(right.durations.values())
-        _judge(
-            fate, attempt(order, folder, {result.module: file}, number=fate.number, limit=limit, whole=whole)
-        )
-
-
-def _judge(fate: Fate, outcome: Outcome) -> None:
-    states = {
-        "passed": "survived",
-        "failed": "killed",
-        "timeout": "timeout",
-        "invalid": "invalid",
-        "none": "invalid",
-    }
-    fate.state = states[outcome.state]
-    fate.by = relative(outcome.test)
-    fate.seconds = round(fate.seconds + outcome.seconds, 2)

@@ -8,11 +8,13 @@ that switches it on; any other set of parameters has the original. So one build 
 
 from __future__ import annotations
 
+import random
 import re
 import subprocess
 import sys
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
+from itertools import zip_longest
 from pathlib import Path
 
 from sim.sources import RTL, reachable, sources
@@ -20,6 +22,8 @@ from sim.sources import RTL, reachable, sources
 CONTROL = "relnav_mutant"
 CONTROL_BITS = 24
 CLOCK = "clk"
+POOL = 40
+"""Mutants that Yosys is asked for at least; a sample is their beginning."""
 
 Values = tuple[tuple[str, str], ...]
 """Parameter -> Verilog literal, in the order of the header."""
@@ -180,7 +184,7 @@ def _yosys(folder: Path, name: str, commands: Sequence[str]) -> None:
     code = f"from pyosys import libyosys as y; y.run_pass('script {script.name}', y.Design())"
     with log.open("w") as out:
         done = subprocess.run(
-            ["timeout", "30", sys.executable, "-c", code],
+            ["timeout", "120", sys.executable, "-c", code],
             cwd=folder,
             stdout=out,
             stderr=subprocess.STDOUT,
@@ -225,15 +229,18 @@ def make(
 ) -> tuple[Path, list[Mutant]]:
     """Write the stand-in of a module with `count` mutants (None: all there are), spread over the sets `used`.
 
+    A smaller sample of the same seed is the beginning of a larger one, up to POOL mutants.
     Returns the file and the mutants. Raises RuntimeError with Yosys' message.
     """
     folder.mkdir(parents=True, exist_ok=True)
     original = module_file(module)
     text = original.read_text()
     header = read_header(text, module)
-    chosen = list(used) if count is None or len(used) <= count else list(used)[:: -(-len(used) // count)]
-    mutants: list[Mutant] = []
-    netlists = []
+    order = list(used)
+    random.Random(seed).shuffle(order)
+    chosen = order if count is None else order[:count]
+    each = 10_000_000 if count is None else -(-max(POOL, count) // min(len(order), max(POOL, count)))
+    listed = []
     for place, values in enumerate(chosen):
         part = folder / f"part{place}"
         part.mkdir(exist_ok=True)
@@ -245,23 +252,26 @@ def make(
             *[f"opt_expr {module}", f"opt_clean {module}"] * 3,
             "write_rtlil netlist.il",
         ]
-        wanted = 10_000_000 if count is None else (count * (place + 1)) // len(chosen) - len(mutants)
         # a quarter more, for those on the clock
-        some = wanted if count is None else wanted + wanted // 4 + 20
+        some = each if count is None else each + each // 4 + 20
         _yosys(part, "list", [*read, f"mutate -list {some} -seed {seed + place} -o list.txt {module}"])
         lines = [line for line in (part / "list.txt").read_text().splitlines() if _possible(line)]
+        listed.append(lines[:each])
+    rounds = zip_longest(*([(place, line) for line in lines] for place, lines in enumerate(listed)))
+    turns = [turn for turns in rounds for turn in turns if turn is not None][:count]
+    mutants = [_parse(line, k, chosen[place], place) for k, (place, line) in enumerate(turns, 1)]
+    netlists = []
+    for place in range(len(chosen)):
         apply = ["read_rtlil netlist.il"]
-        for line in lines[:wanted]:
-            mutant = _parse(line, len(mutants) + 1, values, place)
-            mutants.append(mutant)
-            apply.append(
-                line.replace("mutate ", f"mutate -ctrl {CONTROL} {CONTROL_BITS} {mutant.number} ", 1)
-            )
+        for mutant in mutants:
+            if mutant.part == place:
+                control = f"mutate -ctrl {CONTROL} {CONTROL_BITS} {mutant.number} "
+                apply.append(mutant.line.replace("mutate ", control, 1))
         if len(apply) == 1:  # nothing to mutate: an input that nothing reads
             apply.append(f"select -module {module}; add -input {CONTROL} {CONTROL_BITS}; select -clear")
         apply += [f"select {module}", "write_verilog -noattr -selected netlist.v"]
-        _yosys(part, "apply", apply)
-        netlist = (part / "netlist.v").read_text()
+        _yosys(folder / f"part{place}", "apply", apply)
+        netlist = (folder / f"part{place}" / "netlist.v").read_text()
         netlists.append(re.sub(rf"\bmodule {module}\b", f"module {module}__{place}", netlist, count=1))
     file = folder / original.name
     file.write_text(_stand_in(module, text, header, chosen, netlists))
@@ -269,15 +279,27 @@ def make(
 
 
 def proved_equivalent(module: str, mutant: Mutant, folder: Path, seconds: int = 20) -> bool:
-    """Whether SAT proves that a mutation changes no output, no next state and no input of an instance inside.
+    """Whether SAT proves that a mutation changes no output and no next state, whatever the state.
 
-    Registers and instances are cut: what they give is free. False: not proved, for whatever reason (what only
-    cannot be reached is not proved so, nor anything in a module with a memory). folder: of `make`.
+    Registers are cut: what they give is free. The instances inside are cut too (no input of one may change),
+    and where that does not prove it, they are taken in with their registers. False: not proved, for whatever
+    reason (what only cannot be reached is not proved so). folder: of `make`.
     """
+    flat = [False, True] if _others(module) else [False]
+    return any(_proved(module, mutant, folder, seconds, taken_in) for taken_in in flat)
+
+
+def _proved(module: str, mutant: Mutant, folder: Path, seconds: int, flat: bool) -> bool:
     part = folder / f"part{mutant.part}"
+    others = [f"read_verilog -overwrite -I{RTL / 'include'} {file}" for file in _others(module)]
     commands = [
         "read_rtlil netlist.il",
         mutant.line.replace("mutate ", f"mutate -ctrl {CONTROL} 1 1 ", 1),
+    ]
+    if flat:
+        commands += [*others, f"hierarchy -top {module}", "setattr -mod -unset keep_hierarchy *"]
+        commands += [f"setattr -unset keep_hierarchy {module}/t:*", "proc", "flatten", "opt_clean"]
+    commands += [
         f"memory_collect {module}",
         f"memory_map {module}",
         f"simplemap {module}/t:$dff",
@@ -287,7 +309,7 @@ def proved_equivalent(module: str, mutant: Mutant, folder: Path, seconds: int = 
         "rename -hide w:* i:* %d o:* %d",  # and makes outputs of nets that have some
         "cd ..",
         # the instances' ports as wide as their parameters say
-        *(f"read_verilog -overwrite -I{RTL / 'include'} {file}" for file in _others(module)),
+        *([] if flat else others),
         f"hierarchy -top {module}",
         f"opt_clean -purge {module}",  # single flip-flops that nothing reads
         f"expose -evert {module}",
@@ -302,11 +324,12 @@ def proved_equivalent(module: str, mutant: Mutant, folder: Path, seconds: int = 
         "opt -fast miter",
         f"sat -verify -prove trigger 0 -timeout {seconds} miter",
     ]
+    name = "flat" if flat else "cut"
     try:
-        _yosys(part, "equivalent", commands)
+        _yosys(part, name, commands)
     except RuntimeError:
         return False
-    return "SUCCESS!" in (part / "equivalent.log").read_text(errors="replace")
+    return "SUCCESS!" in (part / f"{name}.log").read_text(errors="replace")
 
 
 def _stand_in(

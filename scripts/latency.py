@@ -25,7 +25,7 @@ from relnav.rtlsim import run_frames, run_rate_frames  # noqa: E402
 from bench.rate_cases import noisy_rows, ring_rows  # noqa: E402
 from scripts.marked import fill, table  # noqa: E402
 
-LEAN = {"WEIGHTED": 0, "COVARIANCE": 0, "REAPPLY": 0}
+LEAN = {"WEIGHTED": 0, "COVARIANCE": 0, "REAPPLY": 0, "VERIFY": 0}
 
 
 def frame(weighted: bool, degrees: float) -> QuantisedFrame:

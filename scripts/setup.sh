@@ -5,6 +5,7 @@
 #
 #   scripts/setup.sh           set up what is missing
 #   scripts/setup.sh --retry   try the Debian packages again that could not be had before
+#   scripts/setup.sh --c       also what tests the C driver on a Cortex-A9 (1.1 GB): its tests are skipped without
 #   RELNAV_NO_APT=1            leave Debian's packages alone
 set -u
 cd "$(dirname "${BASH_SOURCE[0]}")/.." || exit 1
@@ -76,6 +77,21 @@ debian() {
     done
 }
 
+missing_c_packages() {
+    has arm-none-eabi-gcc || echo gcc-arm-none-eabi libnewlib-arm-none-eabi
+    has qemu-system-arm || echo qemu-system-arm
+    has cppcheck || echo cppcheck
+}
+
+c_packages() {
+    local wanted
+    wanted=$(missing_c_packages)
+    # shellcheck disable=SC2086
+    [ -n "$wanted" ] && may_apt && apt_install $wanted
+    wanted=$(missing_c_packages)
+    [ -z "$wanted" ] || die "could not install: ${wanted//$'\n'/ }"
+}
+
 # --------------------------------------------------------------------------------------------- Python
 
 find_python() {
@@ -121,9 +137,9 @@ python_packages() {
     fi
     say "installing Python packages (a few minutes the first time)"
     local pip=("$venv/bin/python" -m pip --disable-pip-version-check install -qq)
-    if ! "${pip[@]}" -c constraints.txt -e '.[sim,dev,synth,formal]'; then
+    if ! "${pip[@]}" -c constraints.txt -e '.[sim,dev,synth,formal,package]'; then
         say "the pinned versions could not be installed; trying the newest that pyproject.toml allows"
-        "${pip[@]}" -e '.[sim,dev,synth,formal]' || die "pip could not install the packages (is the network reachable?)"
+        "${pip[@]}" -e '.[sim,dev,synth,formal,package]' || die "pip could not install the packages (is the network reachable?)"
     fi
     libpython
     printf '%s\n' "$wanted" >$stamp
@@ -131,5 +147,6 @@ python_packages() {
 
 [ "${1:-}" = --retry ] && rm -f "$tried"
 debian
+[ "${1:-}" = --c ] && c_packages
 python_packages
 if [ -n "$not_to_be_had" ]; then printf '%s\n' "$not_to_be_had" >"$tried"; fi

@@ -6,6 +6,9 @@
 Every build has its own folder, ``build/<simulator>/<top>-<hash>``, made again only when what went into it has
 changed. Builds and runs may go on in parallel processes (pytest-xdist): a build is made under an exclusive
 lock on its folder, a run holds a shared one and has a folder of its own below ``runs/``.
+
+With RELNAV_COVERAGE=folder in the environment Verilator counts lines, branches and toggles, in builds of
+their own; every run that passes leaves its counters there as ``<top>-<something>.dat`` for coverage/ to read.
 """
 
 from __future__ import annotations
@@ -21,6 +24,7 @@ import re
 import shutil
 import subprocess
 import sys
+import uuid
 import xml.etree.ElementTree as ElementTree
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import astuple, dataclass
@@ -45,6 +49,7 @@ __all__ = [
 
 SIMULATORS = ("icarus", "verilator")
 TIMESCALE = ("1ns", "1ps")
+COVERAGE_HEADER = ROOT / "coverage" / "toggle.h"
 
 # Dumped through a module of our own: cocotb's is SystemVerilog and would forbid -g2005.
 _ICARUS_DUMP = """`timescale 1ns / 1ps
@@ -128,6 +133,12 @@ def simulator_version(simulator: str) -> str:
     tool = ["iverilog", "-V"] if simulator == "icarus" else [f"{verilator_folder()}/verilator", "--version"]
     shown = subprocess.run(tool, capture_output=True, text=True, check=False).stdout
     return shown.splitlines()[0].removesuffix(" ()") if shown else "unknown"
+
+
+def coverage_folder() -> Path | None:
+    """Where Verilator's runs leave their coverage; None: they count none."""
+    folder = os.environ.get("RELNAV_COVERAGE")
+    return Path(folder).resolve() if folder else None
 
 
 # --------------------------------------------------------------------------------------------- runners
@@ -226,14 +237,20 @@ class _Build:
     tag: str
 
     @property
+    def coverage(self) -> Path | None:
+        """Where its runs leave their coverage."""
+        return coverage_folder() if self.simulator == "verilator" else None
+
+    @property
     def folder(self) -> Path:
         builds = Path(os.environ.get("RELNAV_BUILD", ROOT / "build")).resolve()
-        return builds / self.simulator / f"{self.top}-{_digest(astuple(self))[:10]}"
+        kind = f"{self.simulator}-coverage" if self.coverage else self.simulator
+        return builds / kind / f"{self.top}-{_digest(astuple(self))[:10]}"
 
     @property
     def stamp(self) -> str:
         headers = sorted(file for folder in self.includes for file in folder.glob("*.v*"))
-        files = [*self.sources, *headers, Path(__file__)]
+        files = [*self.sources, *headers, Path(__file__), *([COVERAGE_HEADER] if self.coverage else [])]
         return _digest(astuple(self), _content(files), simulator_version(self.simulator), version("cocotb"))
 
     def is_current(self, stamp: str) -> bool:
@@ -270,6 +287,9 @@ class _Build:
                 "unique",
             ]
             args += ["-CFLAGS", "-std=c++20"]
+            if self.coverage:
+                args += ["--coverage-line", "--coverage-toggle", "--coverage-max-width", "1024"]
+                args += ["--compiler-include", str(COVERAGE_HEADER)]
         else:
             args = ["-g2005"]  # after cocotb's -g2012: the last one counts
             if self.waves:
@@ -339,6 +359,9 @@ class _Build:
             raise SimulationFailed(
                 f"{self.top} on {self.simulator}: {what}\n{_tail(log)}\n(all of it: {log})"
             )
+        if self.coverage:
+            self.coverage.mkdir(parents=True, exist_ok=True)
+            shutil.move(run / "coverage.dat", self.coverage / f"{self.top}-{uuid.uuid4().hex}.dat")
         return trace
 
 

@@ -3,6 +3,7 @@
 
 from __future__ import annotations
 
+import hashlib
 import os
 import re
 from collections.abc import Mapping, Sequence
@@ -19,6 +20,19 @@ def sources(*folders: str, rtl_dir: Path | None = None) -> list[Path]:
     rtl = rtl_dir or RTL
     found = [rtl / name for name in folders] if folders else sorted(d for d in rtl.iterdir() if d.is_dir())
     return [file for folder in found for file in sorted(folder.glob("*.v"))]
+
+
+def module_file(module: str) -> Path:
+    """The module's file in rtl/; raises ValueError where there is none."""
+    (file,) = RTL.glob(f"*/{module}.v")
+    return file
+
+
+def fingerprint(module: str) -> str:
+    """Of a module's text without comments and blanks, to tell results of an earlier text."""
+    text = _COMMENT.sub("", module_file(module).read_text())
+    lines = [" ".join(line.split()) for line in text.splitlines()]
+    return hashlib.sha256("\n".join(lines).encode()).hexdigest()[:12]
 
 
 def reachable(top: str, files: Sequence[Path], defines: Mapping[str, object] | None = None) -> list[Path]:

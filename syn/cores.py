@@ -42,8 +42,8 @@ class Core:
 CORES = (
     Core(
         top="oltae_top",
-        folders=("axi", "arith", "gram", "oltae"),
-        builds={"full": {}, "lean": {"WEIGHTED": 0, "COVARIANCE": 0, "REAPPLY": 0}},
+        folders=("trust", "axi", "arith", "gram", "oltae"),
+        builds={"full": {}, "lean": {"WEIGHTED": 0, "COVARIANCE": 0, "REAPPLY": 0, "VERIFY": 0}},
         paper={"LUT": 5545, "LUTRAM": 153, "FF": 7597, "DSP": 137},
         paper_source="OLTAE paper, Table 1",
         goals={
@@ -53,7 +53,7 @@ CORES = (
     ),
     Core(
         top="ivisnav_top",
-        folders=("axi", "arith", "gram", "ivisnav"),
+        folders=("trust", "axi", "arith", "gram", "ivisnav"),
         builds={"full": {}},
         paper={"LUT": 35488, "LUTRAM": 1555, "FF": 14968, "BRAM": 12.5, "DSP": 120},
         paper_source="iVisNav paper, Table I",

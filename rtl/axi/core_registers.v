@@ -6,14 +6,21 @@
 //
 // Reading takes two clocks inside: groups of up to four registers, each a 4:1 multiplexer (one LUT6 a bit) into flip-flops that
 // are 0 unless their group is addressed; then one OR of the groups and of the result memory into rdata. A write acts in the clock after
-// both its halves have come; pulses out of it come one clock later, in flip-flops.
+// both its halves have come; pulses out of it come one clock later, from flip-flops.
+//
+// Upsets: control and interrupt are voted; the flags have a twin; configuration has a parity bit a byte, made at the bus. What does not
+// fit raises UPSET and `upset`: bad configuration in every clock until it is written again.
+//
+// clock    0     1     2     3      a flip at the end of clock 0
+// value    v     v'    v'    v'
+// upset                x     x      FLAGS.UPSET from clock 3
 `resetall
 `default_nettype none
 
 module core_registers #(
     parameter [31:0] ID              = 32'd0,
     parameter [31:0] BUILD           = 32'd0,    // word of the BUILD register
-    parameter        FLAGS           = 10,       // bits of FLAGS
+    parameter        FLAGS           = 11,       // bits of FLAGS
     parameter        FRACS           = 1,        // binary points in FRAC, a byte each: 1 or 2
     parameter [11:0] COUNT_ADDRESS   = 12'h060,  // of `count`
     parameter [11:0] FIRST_ADDRESS   = 12'h06C,  // of `cycles_first`
@@ -45,17 +52,17 @@ module core_registers #(
     input  wire        s_axil_rready,
 
     // control
-    output reg soft_reset,   // pulses
-    output reg acknowledge,
+    output wire soft_reset,   // pulses
+    output wire acknowledge,
 
     // configuration; changes only while !busy
     output reg  [8*FRACS-1:0] config_frac,
     output reg  [       31:0] config_variance,
 
     // push register, to frame_loader
-    output reg         push_valid,
+    output wire        push_valid,
     output wire [63:0] push_data,
-    output reg         push_last,
+    output wire        push_last,
     input  wire        push_ready,
     input  wire        push_open,   // a push would be taken now or soon
 
@@ -93,7 +100,9 @@ module core_registers #(
     output wire [11:2] read_word,
     input  wire        read_mapped,
     input  wire [31:0] own_data,      // one clock after read_valid of an own register; 0 in any other
+    input  wire        own_upset,     // the core's own configuration has changed by itself
 
+    output reg upset,  // something here cannot be trusted
     output reg irq
 );
 
@@ -101,7 +110,8 @@ module core_registers #(
 
   // ---- protocol
 
-  wire read_wait;
+  wire read_wait, write_lost;
+  wire [3:0] write_parity;
   wire [31:0] read_data;
 
   axil_slave #(
@@ -132,20 +142,26 @@ module core_registers #(
       .write_word(write_word),
       .write_data(write_data),
       .write_strobe(write_strobe),
+      .write_parity(write_parity),
       .write_error(!write_mapped),
       .read_valid(read_valid),
       .read_word(read_word),
       .read_wait(read_wait),
       .read_error(!read_mapped),
-      .read_data(read_data)
+      .read_data(read_data),
+      .upset(write_lost)
   );
 
   // ---- write: all registers but the results lie in the first 32 words
 
-  reg [FLAGS-1:0] flags, frame_flags;
-  reg [1:0] irq_enable, irq_status;  // {error, done}
+  wire [FLAGS-1:0] flags, frame_flags;
+  wire [1:0] irq_enable, irq_status;  // {error, done}
+  wire [15:0] frame, next_frame;
+  reg [15:1] frame_upper;
   reg [31:0] data_a, data_b;
-  reg [15:0] frame;
+  // odd parity of each byte
+  reg [FRACS-1:0] frac_parity;
+  reg [3:0] variance_parity;
 
   wire write_low = write_valid && write_word[11:7] == 5'd0;
   wire [4:0] to = write_word[6:2];
@@ -177,52 +193,96 @@ module core_registers #(
   always @* begin
     raised = flag_set;
     raised[FLAGS_BUSY_WRITE_LSB] = flag_set[FLAGS_BUSY_WRITE_LSB] || locked;
+    raised[FLAGS_UPSET_LSB] = flag_set[FLAGS_UPSET_LSB] || upset;
   end
 
   // the strobed bits of a write of ones
   wire [FLAGS-1:0] ones = write_data[FLAGS-1:0] & {{FLAGS - 8{write_strobe[1]}}, {8{write_strobe[0]}}};
 
+  wire flags_differ;
+  twin_register #(
+      .WIDTH(2 * FLAGS),
+      .RESET({{FLAGS{1'b0}}, FLAGS_RESET[FLAGS-1:0]})
+  ) flags_register (
+      .clk(clk),
+      .rst(rst),
+      .load(1'b1),
+      .d({(frame_flags & ~{FLAGS{frame_start}}) | raised, (flags & ~(ones & {FLAGS{to_flags}})) | raised}),
+      .q({frame_flags, flags}),
+      .differ(flags_differ)
+  );
+
+  wire push_taken = to_push && !push_locked;
+  voted_register #(
+      .WIDTH(4),
+      .RESET(4'd0)
+  ) control_register (
+      .clk(clk),
+      .rst(rst),
+      .d({
+        to_control && write_data[CONTROL_SOFT_RESET_LSB],
+        to_control && write_data[CONTROL_ACKNOWLEDGE_LSB],
+        push_taken || (push_valid && !push_ready && !soft_reset),
+        push_taken ? write_data[PUSH_LAST_LSB] && write_strobe[0] : push_last
+      }),
+      .q({soft_reset, acknowledge, push_valid, push_last})
+  );
+
+  voted_register #(
+      .WIDTH(5),
+      .RESET({1'b0, IRQ_ENABLE_RESET[1:0], IRQ_STATUS_RESET[1:0]})
+  ) event_register (
+      .clk(clk),
+      .rst(rst),
+      .d({
+        next_frame[0],
+        to_irq_enable ? write_data[1:0] : irq_enable,
+        (irq_status & ~(write_data[1:0] & {2{to_irq_status}})) | {|raised, frame_complete}
+      }),
+      .q({frame[0], irq_enable, irq_status})
+  );
+
+  // A driver waits for a frame's end and another number than before: with bit 0 voted no flip can bring the same number back.
+  assign next_frame  = frame + {15'd0, frame_complete};
+  assign frame[15:1] = frame_upper;
+  always @(posedge clk) frame_upper <= rst ? 15'd0 : next_frame[15:1];
+
+  wire config_odd;  // each byte and its parity are odd
+  odd_ones #(
+      .WIDTH(36 + 9 * FRACS)
+  ) config_ones (
+      .bits({config_variance, variance_parity, config_frac, frac_parity}),
+      .odd (config_odd)
+  );
+
   integer b;
   always @(posedge clk) begin
-    soft_reset  <= to_control && write_data[CONTROL_SOFT_RESET_LSB];
-    acknowledge <= to_control && write_data[CONTROL_ACKNOWLEDGE_LSB];
-
     for (b = 0; b < FRACS; b = b + 1)
-      if (to_frac && write_strobe[b] && !busy && frac_fits) config_frac[8*b+:8] <= write_data[8*b+:8];
+      if (to_frac && write_strobe[b] && !busy && frac_fits) begin
+        config_frac[8*b+:8] <= write_data[8*b+:8];
+        frac_parity[b] <= write_parity[b];
+      end
     for (b = 0; b < 4; b = b + 1) begin
-      if (to_variance && write_strobe[b] && !busy) config_variance[8*b+:8] <= write_data[8*b+:8];
+      if (to_variance && write_strobe[b] && !busy) begin
+        config_variance[8*b+:8] <= write_data[8*b+:8];
+        variance_parity[b] <= write_parity[b];
+      end
       if (to_data_a && write_strobe[b] && !push_waits) data_a[8*b+:8] <= write_data[8*b+:8];
       if (to_data_b && write_strobe[b] && !push_waits) data_b[8*b+:8] <= write_data[8*b+:8];
     end
 
-    if (to_push && !push_locked) begin
-      push_valid <= 1'b1;
-      push_last  <= write_data[PUSH_LAST_LSB] && write_strobe[0];
-    end else if (push_ready || soft_reset) begin
-      push_valid <= 1'b0;
-    end
-
-    flags <= (flags & ~(ones & {FLAGS{to_flags}})) | raised;
-    frame_flags <= (frame_flags & ~{FLAGS{frame_start}}) | raised;
-    if (to_irq_enable) irq_enable <= write_data[1:0];
-    irq_status <= (irq_status & ~(write_data[1:0] & {2{to_irq_status}})) | {|raised, frame_complete};
-    irq <= |(irq_enable & irq_status);
-    if (frame_complete) frame <= frame + 16'd1;
+    irq   <= |(irq_enable & irq_status);  // made anew in every clock: a flip is gone after one
+    upset <= config_odd != FRACS[0] || flags_differ || own_upset || write_lost;
 
     if (rst) begin
-      soft_reset <= 1'b0;
-      acknowledge <= 1'b0;
       config_frac <= FRAC_RESET[8*FRACS-1:0];
       config_variance <= VARIANCE_RESET;
       data_a <= DATA_A_RESET;
       data_b <= DATA_B_RESET;
-      push_valid <= 1'b0;
-      flags <= FLAGS_RESET[FLAGS-1:0];
-      frame_flags <= {FLAGS{1'b0}};
-      irq_enable <= IRQ_ENABLE_RESET[1:0];
-      irq_status <= IRQ_STATUS_RESET[1:0];
-      irq <= 1'b0;
-      frame <= 16'd0;
+      for (b = 0; b < FRACS; b = b + 1) frac_parity[b] <= ~^FRAC_RESET[8*b+:8];
+      for (b = 0; b < 4; b = b + 1) variance_parity[b] <= ~^VARIANCE_RESET[8*b+:8];
+      irq   <= 1'b0;
+      upset <= 1'b0;
     end
   end
 

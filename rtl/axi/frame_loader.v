@@ -19,6 +19,10 @@
 // must fall in the clock after frame_end, and may rise again any clock later. A frame that is dropped gave no beat_last, so the array
 // must forget what it has at the next clear. TOO_LONG comes at the first beat too many; the frame is swallowed to its end.
 // soft_reset drops whatever is open and takes no beat in its clock; what is left of that frame at the source opens a new one.
+// give_up takes no beat of a frame that loads either; the frame is swallowed to its end, where frame_dropped comes without a flag. It may stay.
+//
+// Upsets: state, source, beat and mode are voted; a flip of the rest makes a flag at worst. A row's weight, held for the row, has a twin; `upset` tells in the next clock
+// of a weight that changed while a frame was loading. The rows are counted once: `rows` is there to be compared with the array's count.
 `resetall
 `default_nettype none
 
@@ -33,6 +37,7 @@ module frame_loader #(
     input wire accept,     // the core can take a frame: looked at only between frames
     input wire weighted,   // taken over at frame_start
     input wire soft_reset, // pulse
+    input wire give_up,      // give the open frame up
 
     // stream
     input  wire [63:0] s_axis_tdata,
@@ -64,21 +69,29 @@ module frame_loader #(
     output wire few_rows,       // with frame_dropped
     output wire zero_weight,    // with frame_dropped
     output wire bad_tlast,      // with frame_dropped
-    output wire too_long        // frame_dropped comes now or later
+    output wire too_long,       // frame_dropped comes now or later
+
+    // trust
+    output wire        open,   // a frame is, or is being swallowed
+    output wire [15:0] rows,   // complete, of the open frame; after frame_end until the next clear
+    output wire        upset   // the weight held had changed
 );
 
+  // both states with the upper bit are SWALLOW
   localparam [1:0] IDLE = 2'd0, LOAD = 2'd1, SWALLOW = 2'd2;
-  localparam LAST = BEATS - 1, BEFORE = LEAST - 1;
+  localparam LAST = BEATS - 1, BEFORE = LEAST - 2;
   localparam [1:0] LAST_BEAT = LAST[1:0];
   localparam [1:0] WEIGHT_BEAT = 2'd3;  // in front
   localparam [2:0] ALMOST = BEFORE[2:0];
 
-  reg [1:0] state;
-  reg from_push;
-  reg [1:0] beat;  // the beat awaited
-  // Rows complete + 1. Bit 16 rises with row 65535, the last that the core's 16-bit counters carry.
-  reg [16:0] count;
+  wire [1:0] state;
+  wire from_push;
+  wire [1:0] beat;  // the beat awaited
+  reg [15:0] count;  // rows complete; the core's counters carry no more
   reg enough;  // all but one of the rows needed are complete
+  wire load = state == LOAD;
+  wire swallow = state[1];
+  wire hold = soft_reset || (give_up && load);
   wire some_weight;  // a weight that is not 0 has come, or comes with this beat
 
   // ---- source
@@ -90,21 +103,23 @@ module frame_loader #(
   wire weight_beat = WEIGHTED == 1 && beat == WEIGHT_BEAT;
   wire first = beat == (beat_weighted ? WEIGHT_BEAT : 2'd0);
   wire closing = beat == LAST_BEAT;
-  wire full = count[16] && first;
-  wire to_array = state == LOAD && !weight_beat && !full && !soft_reset;
-  wire taken_here = state == SWALLOW || (state == LOAD && (weight_beat || full));
-  wire ready = (to_array && beat_ready) || (taken_here && !soft_reset);
+  wire full = count == 16'hFFFF && first;
+  wire to_array = load && !weight_beat && !full && !hold;
+  wire taken_here = swallow || (load && (weight_beat || full));
+  wire ready = (to_array && beat_ready) || (taken_here && !hold);
   wire fire = valid && ready;
 
   assign s_axis_tready = ready && !from_push;
   assign push_ready = ready && from_push;
-  assign push_open = state == IDLE ? accept : from_push;
+  assign push_open = !open ? accept : from_push;
 
   // ---- Gram array
 
   wire good = enough && some_weight;
 
-  assign clear = state == IDLE && accept && !soft_reset && (push_valid || s_axis_tvalid);
+  assign open = load || swallow;
+  assign rows = count;
+  assign clear = !open && accept && !soft_reset && (push_valid || s_axis_tvalid);
   assign beat_valid = to_array && valid;
   assign beat_index = beat;
   assign beat_last = last && closing && good;
@@ -112,58 +127,87 @@ module frame_loader #(
   // ---- events
 
   wire ends = fire && last;
-  wire ends_row = ends && state == LOAD && closing;  // the last beat is never the first, so never full
+  wire ends_row = ends && load && closing;  // the last beat is never the first, so never full
 
   assign frame_start = clear;
   assign frame_end = ends_row && good;
   assign frame_dropped = ends && !frame_end;
   assign few_rows = ends_row && !enough;
   assign zero_weight = ends_row && !some_weight;
-  assign bad_tlast = ends && state == LOAD && !closing && !full;
-  assign too_long = fire && state == LOAD && full;
+  assign bad_tlast = ends && load && !closing && !full;
+  assign too_long = fire && load && full;
 
-  always @(posedge clk) begin
-    if (clear) begin
-      state     <= LOAD;
-      from_push <= push_valid;
-      beat      <= WEIGHTED == 1 && weighted ? WEIGHT_BEAT : 2'd0;
-      count     <= 17'd1;
-      enough    <= 1'b0;
-    end else if (fire) begin
-      if (last) state <= IDLE;
-      else if (full) state <= SWALLOW;
-      beat <= closing && !beat_weighted ? 2'd0 : beat + 2'd1;
-      if (state == LOAD && closing) begin
-        count  <= count + 17'd1;
-        enough <= enough || count[2:0] == ALMOST;
-      end
-    end
-    if (rst || soft_reset) state <= IDLE;
+  reg [1:0] next_state;
+  always @* begin
+    next_state = state;
+    if (clear) next_state = LOAD;
+    else if (fire && last) next_state = IDLE;
+    else if ((fire && load && full) || (give_up && load)) next_state = SWALLOW;
+    if (soft_reset) next_state = IDLE;
   end
+
+  wire row_done = fire && load && closing;
+
+  voted_register #(
+      .WIDTH(5),
+      .RESET(5'd0)
+  ) state_register (
+      .clk(clk),
+      .rst(rst),
+      .d({
+        next_state,
+        clear ? push_valid : from_push,
+        clear ? (WEIGHTED == 1 && weighted ? WEIGHT_BEAT : 2'd0) : fire ? (closing && !beat_weighted ? 2'd0 : beat + 2'd1) : beat
+      }),
+      .q({state, from_push, beat})
+  );
+
+  always @(posedge clk)
+    if (clear) begin
+      count  <= 16'd0;
+      enough <= 1'b0;
+    end else if (row_done) begin
+      count  <= count + 16'd1;
+      enough <= enough || count[2:0] == ALMOST;
+    end
 
   // ---- weights
 
   generate
     if (WEIGHTED == 1) begin : g_front
-      reg mode;
-      reg [15:0] weight;
-      reg some;
+      wire mode, differ;
+      reg some, changed;
       wire take = fire && weight_beat;
-      always @(posedge clk) begin
-        if (clear) begin
-          mode   <= weighted;
-          weight <= 16'd1;
-          some   <= !weighted;
-        end else if (take) begin
-          weight <= beat_data[15:0];
-          some   <= some || beat_data[15:0] != 16'd0;
-        end
-      end
+      voted_register #(
+          .WIDTH(1),
+          .RESET(1'b0)
+      ) mode_register (
+          .clk(clk),
+          .rst(rst),
+          .d  (clear ? weighted : mode),
+          .q  (mode)
+      );
+      always @(posedge clk)
+        if (clear) some <= !weighted;
+        else if (take) some <= some || beat_data[15:0] != 16'd0;
+      twin_register #(
+          .WIDTH(16),
+          .RESET(16'd1)
+      ) weight_register (
+          .clk(clk),
+          .rst(rst || clear),
+          .load(take),
+          .d(beat_data[15:0]),
+          .q(beat_weight),
+          .differ(differ)
+      );
+      always @(posedge clk) changed <= differ && load && !rst;
+      assign upset = changed;
       assign beat_weighted = mode;
-      assign beat_weight   = weight;
       assign some_weight   = some;
     end else begin : g_fixed
       assign beat_weighted = 1'b0;
+      assign upset = 1'b0;
       if (WEIGHTED == 2) begin : g_inside
         reg  some;
         wire here = beat_weight != 16'd0;
@@ -190,8 +234,7 @@ module frame_loader #(
     case (state)
       IDLE: state_name = "IDLE";
       LOAD: state_name = "LOAD";
-      SWALLOW: state_name = "SWALLOW";
-      default: state_name = "?";
+      default: state_name = "SWALLOW";
     endcase
   // synthesis translate_on
 

@@ -5,6 +5,7 @@
 `default_nettype none
 
 module ivisnav_registers #(
+    parameter VERIFY = 1,    // what this core was built with, for BUILD
     parameter MANTISSA = 24  // bits, for BUILD
 ) (
     input wire clk,
@@ -53,9 +54,9 @@ module ivisnav_registers #(
     input wire [2:0] ready,  // all, none, rates
 
     // events, pulses
-    input wire [8:0] flag_set,        // in the order of FLAGS (bit 6 is none); the register file adds BUSY_WRITE itself
-    input wire       frame_start,
-    input wire       frame_complete,
+    input wire [10:0] flag_set,       // in the order of FLAGS (6, 9: none); BUSY_WRITE and UPSET of this file are added here
+    input wire        frame_start,
+    input wire        frame_complete,
 
     // of the frame whose results stand
     input wire [15:0] rows,
@@ -70,10 +71,13 @@ module ivisnav_registers #(
     input  wire        result_wait,
     input  wire [31:0] result_data,
 
+    output wire upset,  // something here cannot be trusted: core_registers
     output wire irq
 );
 
   `include "ivisnav_registers.vh"
+
+  localparam [10:0] GAPS = 11'b010_0100_0000;  // flags that this core has not
 
   wire read_valid;
   wire [11:2] write_word, read_word;
@@ -88,8 +92,8 @@ module ivisnav_registers #(
 
   core_registers #(
       .ID(ID_RESET),
-      .BUILD(MANTISSA << BUILD_MANTISSA_LSB),
-      .FLAGS(9),
+      .BUILD({31'd0, VERIFY != 0} << BUILD_VERIFY_LSB | MANTISSA << BUILD_MANTISSA_LSB),
+      .FLAGS(11),
       .FRACS(2),
       .COUNT_ADDRESS(ROWS_ADDRESS),
       .FIRST_ADDRESS(CYCLES_RATES_ADDRESS),
@@ -128,7 +132,7 @@ module ivisnav_registers #(
       .busy(busy),
       .state(state),
       .ready(ready),
-      .flag_set(flag_set),
+      .flag_set(flag_set & ~GAPS),
       .frame_start(frame_start),
       .frame_complete(frame_complete),
       .count(rows),
@@ -150,6 +154,8 @@ module ivisnav_registers #(
       .read_word(read_word),
       .read_mapped(is_mapped(read_word)),
       .own_data(own),
+      .own_upset(1'b0),
+      .upset(upset),
       .irq(irq)
   );
 

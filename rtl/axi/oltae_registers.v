@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Register file of oltae_top. The map is registers/oltae.rdl (page: docs/registers-oltae.md). Here: CONFIG, TURN and the flag NOT_BUILT;
-// all else is core_registers, whose timing this follows.
+// Register file of oltae_top. The map is registers/oltae.rdl (page: docs/registers-oltae.md). Here: CONFIG (with parity), TURN and the flag
+// NOT_BUILT; all else is core_registers, whose timing this follows.
 `resetall
 `default_nettype none
 
@@ -8,6 +8,7 @@ module oltae_registers #(
     parameter WEIGHTED = 1,    // what this core was built with: BUILD, and which bits CONFIG has
     parameter COVARIANCE = 1,
     parameter REAPPLY = 1,
+    parameter VERIFY = 1,
     parameter MANTISSA = 35    // bits, for BUILD
 ) (
     input wire clk,
@@ -59,9 +60,9 @@ module oltae_registers #(
     input wire [2:0] ready,  // all, pose, q
 
     // events, pulses
-    input wire [9:0] flag_set,        // in the order of FLAGS; the register file adds BUSY_WRITE and NOT_BUILT itself
-    input wire       frame_start,
-    input wire       frame_complete,
+    input wire [10:0] flag_set,       // in the order of FLAGS; BUSY_WRITE, NOT_BUILT and UPSET of this file are added here
+    input wire        frame_start,
+    input wire        frame_complete,
 
     // of the frame whose results stand
     input wire [15:0] points,
@@ -77,16 +78,18 @@ module oltae_registers #(
     input  wire        result_wait,
     input  wire [31:0] result_data,
 
+    output wire upset,  // something here cannot be trusted: core_registers
     output wire irq
 );
 
   `include "oltae_registers.vh"
 
-  localparam FLAGS = 10;
+  localparam FLAGS = 11;
   localparam [3:0] BUILT = {COVARIANCE != 0, REAPPLY != 0, 1'b1, WEIGHTED != 0};  // bits of CONFIG
 
   localparam [31:0] BUILD = {31'd0, WEIGHTED != 0} << BUILD_WEIGHTED_LSB | {31'd0, COVARIANCE != 0} << BUILD_COVARIANCE_LSB |
-                            {31'd0, REAPPLY != 0} << BUILD_REAPPLY_LSB | MANTISSA << BUILD_MANTISSA_LSB;
+                            {31'd0, REAPPLY != 0} << BUILD_REAPPLY_LSB | {31'd0, VERIFY != 0} << BUILD_VERIFY_LSB |
+                            MANTISSA << BUILD_MANTISSA_LSB;
 
   // ---- write
 
@@ -99,9 +102,11 @@ module oltae_registers #(
 
   reg [3:0] configuration;
   reg asked;  // CONFIG was last asked for something that is not built
+  reg parity;  // makes these five and itself an even number of ones
 
   wire to_config = write_valid && write_word == CONFIG_ADDRESS[11:2];
   wire set_config = to_config && write_strobe[0] && !busy;
+  wire [3:0] given = write_data[3:0] & BUILT;
   wire asks = |(write_data[3:0] & ~BUILT);
 
   reg [FLAGS-1:0] raised;
@@ -112,12 +117,14 @@ module oltae_registers #(
 
   always @(posedge clk) begin
     if (set_config) begin
-      configuration <= write_data[3:0] & BUILT;
+      configuration <= given;
       asked <= asks;
+      parity <= ^{given, asks};
     end
     if (rst) begin
       configuration <= CONFIG_RESET[3:0] & BUILT;
       asked <= 1'b0;
+      parity <= ^(CONFIG_RESET[3:0] & BUILT);
     end
   end
 
@@ -201,6 +208,8 @@ module oltae_registers #(
       .read_word(read_word),
       .read_mapped(is_mapped(read_word)),
       .own_data({28'd0, own}),
+      .own_upset(^{configuration, asked, parity}),
+      .upset(upset),
       .irq(irq)
   );
 

@@ -15,7 +15,10 @@
 //   first pair_valid (slot 0, lane 0)                        7                    9                 12
 //   pair_last                                               27                   29                 32
 //   redrain at clock 0 -> first pair_valid                   5                    5                  5
+//   value m_bz at clock 0 -> checked                        20                   20                 20
 // All of them hold until clear.
+//
+// CHECK: moment_check compares what leaves with the beats, at every drain that is given with `check`. It watches only.
 //
 // clock         0      1      2      3      4      5      6      7      lean build; the WEIGHTED build has weight_digits in front (2 clocks)
 // own lanes    beat z factor product sum    head                        rings turn to slot 0 (gram_drain)
@@ -30,7 +33,8 @@
 `include "relnav_words.vh"
 
 module gram_array #(
-    parameter WEIGHTED = 1  // 0: every weight is 1, no pre-multiplier, no second pass
+    parameter WEIGHTED = 1,  // 0: every weight is 1, no pre-multiplier, no second pass
+    parameter CHECK    = 1   // 0: no moment_check, `checked` and `mismatch` stay 0
 ) (
     input  wire                                     clk,
     input  wire                                     rst,
@@ -56,7 +60,15 @@ module gram_array #(
     output wire        [   `RELNAV_W(WEIGHTED)-1:0] weight_sum,
     output wire        [         `RELNAV_COUNT-1:0] point_count,
     output wire        [         `RELNAV_COUNT-1:0] used_count,      // points whose weight is not 0
-    output wire        [6*`RELNAV_M1(WEIGHTED)-1:0] first_moments  // {b_z, a_z, b_y, a_y, b_x, a_x}
+    output wire        [6*`RELNAV_M1(WEIGHTED)-1:0] first_moments,   // {b_z, a_z, b_y, a_y, b_x, a_x}
+    // check of what leaves against the beats: pairs, and what value_feeder makes of the sums (W, then first moments, m_bz last)
+    input  wire                                     check,           // this drain's pairs are to be checked
+    input  wire                                     value_valid,
+    input  wire        [                       4:0] value_address,
+    input  wire signed [  `RELNAV_M1(WEIGHTED)-1:0] value,
+    output wire                                     checked,         // pulse: 20 clocks after m_bz
+    output wire                                     mismatch,        // pulse, in the same clock
+    output wire                                     differ            // a counter had an upset: one clock or more
 );
   localparam M1_BITS = `RELNAV_M1(WEIGHTED);
   localparam M2_BITS = `RELNAV_M2(WEIGHTED);
@@ -136,7 +148,8 @@ module gram_array #(
       .weight(beat_weight),
       .weight_sum(weight_sum),
       .count(point_count),
-      .used(used_count)
+      .used(used_count),
+      .differ(differ)
   );
 
   first_moments #(
@@ -342,6 +355,42 @@ module gram_array #(
       .pair_first_i(pair_first_i),
       .pair_first_j(pair_first_j)
   );
+
+  // ---- check: addresses above 27 are no sums of the beats
+  localparam [4:0] ADDRESS_LAST = 5'd27;
+
+  generate
+    if (CHECK != 0) begin : g_check
+      moment_check #(
+          .RING(0),
+          .ITEM_BITS(M2_BITS),
+          .VALUE_BITS(M1_BITS)
+      ) u_check (
+          .clk(clk),
+          .rst(rst),
+          .clear(clear),
+          .beat(beat_valid && beat_ready),
+          .beat_data(beat_data),
+          .beat_index(beat_index),
+          .beat_weight(WEIGHTED != 0 ? beat_weight : 16'd1),
+          .item_valid(pair_valid && check),
+          .item_key({1'b0, pair_slot, pair_lane}),
+          .item(pair_moment),
+          .value_valid(value_valid && value_address[4:2] != 3'd7),
+          .value_key({1'b0, value_address}),
+          .value_last(value_address == ADDRESS_LAST),
+          .value(value),
+          .checked(checked),
+          .mismatch(mismatch)
+      );
+    end else begin : g_no_check
+      assign checked  = 1'b0;
+      assign mismatch = 1'b0;
+      /* verilator lint_off UNUSEDSIGNAL */
+      wire unused_check = &{check, value_valid, value_address, value};
+      /* verilator lint_on UNUSEDSIGNAL */
+    end
+  endgenerate
 endmodule
 
 `resetall

@@ -14,6 +14,8 @@
 //   h_bits, y_bits, weight_bits right from          6
 //   first item_valid                               20
 //   item_last                                      47
+//   checked                                        68
+//   redrain at clock 0 -> first item_valid          7
 // All but the items hold until clear.
 //
 // clock          0     1     2     3     4     5     6     7     8     9     10    11    12    13    14    15    16    17    18    19    20
@@ -29,12 +31,16 @@
 // both - high - low is right modulo 2^48 and truly sum v1 l + v0 h, at most 65535 * 2 * 2^30, so recombine's proof holds as it stands.
 // |G_ij| <= 65535^2 * 2^62 < 2^94.
 //
+// CHECK: moment_check compares what leaves with the beats, at every drain that is given with `check`. It watches only.
+//
 // rst does what clear does. clear (before or with a frame's first beat, in any clock) forgets everything, also a half-given row, or a drain: its
 // items end with that clock. Beats may not come between beat_last and the next clear.
 `resetall
 `default_nettype none
 
-module gram_ring (
+module gram_ring #(
+    parameter CHECK = 1  // 0: no moment_check, `checked` and `mismatch` stay 0
+) (
     input  wire               clk,
     input  wire               rst,
     input  wire               clear,
@@ -45,6 +51,7 @@ module gram_ring (
     input  wire        [ 1:0] beat_index,
     input  wire               beat_last,
     // items
+    input  wire               redrain,        // give them again
     output reg                item_valid,
     output reg         [ 2:0] item_row,     // row <= column
     output reg         [ 2:0] item_column,
@@ -56,7 +63,12 @@ module gram_ring (
     output wire        [15:0] used_count,
     output wire        [ 5:0] h_bits,
     output wire        [ 5:0] y_bits,
-    output wire        [ 5:0] weight_bits
+    output wire        [ 5:0] weight_bits,
+    // check of what leaves against the beats: items and weight_sum
+    input  wire               check,          // this drain's items are to be checked
+    output wire               checked,        // pulse: 21 clocks after item_last
+    output wire               mismatch,       // pulse, in the same clock
+    output wire               differ            // a counter or a range had an upset: one clock or more
 );
   wire restart = rst || clear;
 
@@ -84,6 +96,9 @@ module gram_ring (
       .weight(weight)
   );
 
+  wire count_differs, range_differs;
+  assign differ = count_differs || range_differs;
+
   point_counter u_counter (
       .clk(clk),
       .rst(rst),
@@ -92,7 +107,8 @@ module gram_ring (
       .weight(beat_data[47:32]),
       .weight_sum(weight_sum),
       .count(row_count),
-      .used(used_count)
+      .used(used_count),
+      .differ(count_differs)
   );
 
   range_bits u_ranges (
@@ -105,7 +121,8 @@ module gram_ring (
       .weight_sum(weight_sum),
       .h_bits(h_bits),
       .y_bits(y_bits),
-      .weight_bits(weight_bits)
+      .weight_bits(weight_bits),
+      .differ(range_differs)
   );
 
   // ---- operands: x on two buses, y in the ring
@@ -249,7 +266,7 @@ module gram_ring (
       .clk(clk),
       .rst(rst),
       .clear(clear),
-      .start(slot_valid && slot_last && slot == 2'd2),
+      .start((slot_valid && slot_last && slot == 2'd2) || redrain),
       .rotate(rotate),
       .address(drain_address),
       .turn_low(turn_low),
@@ -312,6 +329,45 @@ module gram_ring (
     {place_1, place_2, item_row, item_column} <= {row_read, column_read, place_1, place_2};
     if (restart) {item_1, item_2, item_valid, end_1, end_2, item_last} <= 6'b0;
   end
+
+  // ---- check: after the last item the sum of the weights
+  generate
+    if (CHECK != 0) begin : g_check
+      localparam [5:0] KEY_WEIGHT = 6'd58;
+      reg weight_follows;
+
+      always @(posedge clk) weight_follows <= item_last && check && !restart;
+
+      moment_check #(
+          .RING(1),
+          .ITEM_BITS(96),
+          .VALUE_BITS(33)
+      ) u_check (
+          .clk(clk),
+          .rst(rst),
+          .clear(clear),
+          .beat(beat_valid && beat_ready),
+          .beat_data(beat_data),
+          .beat_index(beat_index),
+          .beat_weight(beat_data[47:32]),
+          .item_valid(item_valid && check),
+          .item_key({item_row, item_column}),
+          .item(item_moment),
+          .value_valid(weight_follows),
+          .value_key(KEY_WEIGHT),
+          .value_last(1'b1),
+          .value({1'b0, weight_sum}),
+          .checked(checked),
+          .mismatch(mismatch)
+      );
+    end else begin : g_no_check
+      assign checked  = 1'b0;
+      assign mismatch = 1'b0;
+      /* verilator lint_off UNUSEDSIGNAL */
+      wire unused_check = check;
+      /* verilator lint_on UNUSEDSIGNAL */
+    end
+  endgenerate
 endmodule
 
 `resetall

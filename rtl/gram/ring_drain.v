@@ -12,7 +12,8 @@
 //                               5   5
 //                               4   4   4                                 lanes whose first slot is not the first of the ring
 //
-// The last step's sums are at the heads in clock -1 at the latest. Not to be started while it runs, or while rows come.
+// The last step's sums are at the heads in clock -1 at the latest. Not to be started while it runs, or while rows come. It may be started
+// again: then every lane's ring stands where its first turn leads to its first slot, and those turns fall away.
 `resetall
 `default_nettype none
 
@@ -34,6 +35,7 @@ module ring_drain (
 );
   // ---- item
   reg looking;
+  reg turned;  // the lanes' rings begin with the first slot of each
   reg [4:0] item;
   reg [5:0] item_pair;  // {row, column}
 
@@ -86,7 +88,9 @@ module ring_drain (
   always @(posedge clk) begin
     if (start) looking <= 1'b1;
     else if (item == 5'd27) looking <= 1'b0;
-    if (looking) item <= item + 5'd1;
+    if (start) item <= 5'd0;
+    else if (looking) item <= item + 5'd1;
+    if (item == 5'd27) turned <= 1'b1;
 
     fetching      <= looking;
     fetch_last    <= looking && item == 5'd27;
@@ -114,12 +118,14 @@ module ring_drain (
       turns    <= 7'd0;
       reading  <= 1'b0;
       item     <= 5'd0;
+      turned   <= 1'b0;
     end
   end
 
   // ---- lanes
-  wire [6:0] further = {item == 5'd2, item == 5'd2 || item == 5'd3, item == 5'd2 || item == 5'd3 || item == 5'd4, 4'd0};
-  assign rotate = turns | further;
+  wire second = item == 5'd2, third = item == 5'd3, fourth = item == 5'd4;
+  wire [6:0] further = {second, second || third, second || third || fourth, 4'd0};
+  assign rotate = turns | (turned ? 7'd0 : further);
 
   genvar lane;
   generate

@@ -2,14 +2,17 @@
 // iVisNav core: beats of rows in, results out.
 //
 //   beats -> gram_ring (28 exact sums w u_i u_j of u = [h; y]) -> rates_engine (normal equations solved in binary32) -> result words
-//   frame_state: IDLE -> SEND_DATA -> COMPUTE -> DONE; two groups of results, rates (v, omega) and all (rss, covariance)
+//   frame_state: IDLE -> SEND_DATA -> COMPUTE -> VERIFY -> DONE; two groups of results, rates (v, omega) and all (rss, covariance)
 //   A frame that is rank deficient or ill conditioned leaves no result and leads back to IDLE.
+// VERIFY (parameter): the exact sums are checked against the beats, and drained and solved twice; any difference is an upset.
 //
 // clock     0           ..  a               ..  r               ..  s               clocks from the last accepted beat: docs/ivisnav.md,
 //           last beat       first item          v and omega         rss and covariance    measured by frame_state's counters
 `resetall
 `default_nettype none
-module ivisnav_core (
+module ivisnav_core #(
+    parameter VERIFY = 1
+) (
     input  wire        clk,
     input  wire        rst,
     input  wire        soft_reset,
@@ -29,12 +32,17 @@ module ivisnav_core (
     input  wire        frame_start,
     input  wire        frame_end,
     input  wire        frame_dropped,
+    input  wire        frame_open,
+    input  wire [15:0] frame_rows,       // as the loader counts them
+    output wire        give_up,
     // results
     output wire        write_valid,
     output wire [ 5:0] write_index,
     output wire [31:0] write_data,
     output wire        rates_commit,
     output wire        all_commit,
+    output wire        verifying,
+    input  wire        differs,
     // status
     output wire [ 2:0] state_code,
     output wire        busy,
@@ -47,11 +55,15 @@ module ivisnav_core (
     output wire [15:0] cycles_all,
     output wire        rank_deficient,
     output wire        ill_conditioned,
-    output wire        watchdog
+    output wire        watchdog,
+    output wire        complete,
+    // upsets
+    input  wire        upset_elsewhere,
+    output wire        upset
 );
   // ------------------------------------------------------------------ state machine
   wire engine_rank_deficient, engine_ill_conditioned, rates_done, all_done;
-  wire computing;
+  wire loading, computing, again, redrain;
 
   assign rank_deficient  = computing & engine_rank_deficient;
   assign ill_conditioned = computing & engine_ill_conditioned;
@@ -65,6 +77,7 @@ module ivisnav_core (
 
   frame_state #(
       .WATCHDOG_BITS(11),
+      .VERIFY(VERIFY),
       .LOADING_NAME ("SEND_DATA")
   ) states (
       .clk(clk),
@@ -77,8 +90,14 @@ module ivisnav_core (
       .frame_dropped(frame_dropped),
       .done({all_done, 1'b0, rates_done}),
       .refused(rank_deficient | ill_conditioned),
+      .upset(upset),
+      .loading(loading),
       .computing(computing),
+      .verifying(verifying),
+      .again(again),
+      .redrain(redrain),
       .commit(commit),
+      .complete(complete),
       .state(state_code),
       .busy(busy),
       .ready(ready),
@@ -96,14 +115,46 @@ module ivisnav_core (
     if (rst) {rows, weight, condition} <= 80'd0;
   end
 
-  // ------------------------------------------------------------------ sums
+  // ------------------------------------------------------------------ upsets
   wire flush = clear | soft_reset;
+  wire checked, mismatch, array_differs;  // the sums with the beats
+  core_upsets #(
+      .RECORD(80),
+      .VERIFY(VERIFY)
+  ) upsets (
+      .clk(clk),
+      .rst(rst),
+      .loading(loading),
+      .computing(computing),
+      .verifying(verifying),
+      .again(again),
+      .forget(flush),
+      .ended(all_done),
+      .open(frame_open),
+      .frame_rows(frame_rows),
+      .array_rows(row_count),
+      .checked(checked),
+      .mismatch(mismatch),
+      .differ(array_differs),
+      .differs(differs),
+      .repeated(verifying & rates_done),
+      .refused(engine_rank_deficient | engine_ill_conditioned),
+      .record({rows, weight, condition}),
+      .record_again({row_count, weight_sum, engine_condition}),
+      .elsewhere(upset_elsewhere),
+      .upset(upset),
+      .give_up(give_up)
+  );
+
+  // ------------------------------------------------------------------ sums
   wire item_valid, item_last;
   wire [2:0] item_row, item_column;
   wire signed [95:0] item_moment;
   wire [5:0] h_bits, y_bits, weight_bits;
 
-  gram_ring gram (
+  gram_ring #(
+      .CHECK(VERIFY)
+  ) gram (
       .clk(clk),
       .rst(rst),
       .clear(flush),
@@ -112,6 +163,11 @@ module ivisnav_core (
       .beat_data(beat_data),
       .beat_index(beat_index),
       .beat_last(beat_last),
+      .redrain(redrain),
+      .check(1'b1),
+      .checked(checked),
+      .mismatch(mismatch),
+      .differ(array_differs),
       .item_valid(item_valid),
       .item_row(item_row),
       .item_column(item_column),
@@ -128,7 +184,7 @@ module ivisnav_core (
   // ------------------------------------------------------------------ solve
   rates_engine engine (
       .clk(clk),
-      .rst(rst | flush),
+      .rst(rst | flush | again),
       .item_valid(item_valid),
       .item_row(item_row),
       .item_column(item_column),

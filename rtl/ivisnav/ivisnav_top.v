@@ -7,7 +7,9 @@
 //   irq       level, on a completed frame or a raised flag, each maskable
 `resetall
 `default_nettype none
-module ivisnav_top (
+module ivisnav_top #(
+    parameter VERIFY = 1
+) (
     input  wire        clk,
     input  wire        rst,
     // AXI4-Lite
@@ -38,6 +40,8 @@ module ivisnav_top (
     // interrupt
     output wire        irq
 );
+  wire give_up, frame_open, verifying, differs, complete, upset, configuration_upset, loader_upset;
+  wire [15:0] frame_rows;
   wire soft_reset, acknowledge;
   wire [7:0] config_frac_h, config_frac_y;
   wire [31:0] config_variance;
@@ -54,6 +58,7 @@ module ivisnav_top (
   wire [31:0] result_data;
 
   ivisnav_registers #(
+      .VERIFY(VERIFY),
       .MANTISSA(24)
   ) registers (
       .clk(clk),
@@ -91,9 +96,9 @@ module ivisnav_top (
       .state(state),
       .ready({all_ready, 1'b0, rates_ready}),
       // the register file adds BUSY_WRITE itself
-      .flag_set({watchdog, ill_conditioned, 1'b0, 1'b0, bad_tlast, too_long, zero_weight, rank_deficient, few_rows}),
+      .flag_set({upset, 1'b0, watchdog, ill_conditioned, 1'b0, 1'b0, bad_tlast, too_long, zero_weight, rank_deficient, few_rows}),
       .frame_start(frame_start),
-      .frame_complete(all_commit),
+      .frame_complete(complete),
       .rows(rows),
       .weight(weight),
       .condition(condition),
@@ -103,6 +108,7 @@ module ivisnav_top (
       .result_index(result_index),
       .result_wait(result_wait),
       .result_data(result_data),
+      .upset(configuration_upset),
       .irq(irq)
   );
 
@@ -147,14 +153,20 @@ module ivisnav_top (
       .few_rows(few_rows),
       .zero_weight(zero_weight),
       .bad_tlast(bad_tlast),
-      .too_long(too_long)
+      .too_long(too_long),
+      .give_up(give_up),
+      .open(frame_open),
+      .rows(frame_rows),
+      .upset(loader_upset)
   );
 
   wire write_valid;
   wire [5:0] write_index;
   wire [31:0] write_data;
 
-  ivisnav_core core (
+  ivisnav_core #(
+      .VERIFY(VERIFY)
+  ) core (
       .clk(clk),
       .rst(rst),
       .soft_reset(soft_reset),
@@ -172,6 +184,9 @@ module ivisnav_top (
       .frame_start(frame_start),
       .frame_end(frame_end),
       .frame_dropped(frame_dropped),
+      .frame_open(frame_open),
+      .frame_rows(frame_rows),
+      .give_up(give_up),
       .write_valid(write_valid),
       .write_index(write_index),
       .write_data(write_data),
@@ -188,13 +203,19 @@ module ivisnav_top (
       .cycles_all(cycles_all),
       .rank_deficient(rank_deficient),
       .ill_conditioned(ill_conditioned),
-      .watchdog(watchdog)
+      .watchdog(watchdog),
+      .verifying(verifying),
+      .differs(differs),
+      .complete(complete),
+      .upset_elsewhere(configuration_upset | loader_upset),
+      .upset(upset)
   );
 
   // v and omega; then rss and the covariance
   result_store #(
       .MIDDLE_FIRST(6),
-      .LAST_FIRST  (6)
+      .LAST_FIRST  (6),
+      .VERIFY(VERIFY)
   ) store (
       .clk(clk),
       .rst(rst),
@@ -202,6 +223,8 @@ module ivisnav_top (
       .write_index(write_index),
       .write_data(write_data),
       .commit({all_commit, 1'b0, rates_commit}),
+      .verify(verifying),
+      .differs(differs),
       .read_valid(result_valid),
       .read_index(result_index),
       .read_wait(result_wait),

@@ -2,7 +2,9 @@
 // OLTAE core: beats of points in, results out, with the state machine of the paper's Fig. 6 around them.
 //
 //   beats -> gram_array -> moment_stream (centring, butterfly, normaliser) -> solve_engine -> result words
-//   frame_state: IDLE -> LOAD -> COMPUTE -> DONE; three groups of results, q, pose and all
+//   frame_state: IDLE -> LOAD -> COMPUTE -> VERIFY -> DONE; three groups of results, q, pose and all
+//
+// VERIFY (parameter): the exact sums are checked against the beats, and drained and solved twice; any difference is an upset.
 //
 // Latency in clocks from the last accepted beat: docs/oltae.md, measured by the cycle counters here.
 `include "relnav_words.vh"
@@ -11,7 +13,8 @@
 module oltae_core #(
     parameter WEIGHTED   = 1,
     parameter COVARIANCE = 1,
-    parameter REAPPLY    = 1
+    parameter REAPPLY    = 1,
+    parameter VERIFY     = 1
 ) (
     input  wire        clk,
     input  wire        rst,
@@ -36,11 +39,16 @@ module oltae_core #(
     input  wire        frame_start,
     input  wire        frame_end,
     input  wire        frame_dropped,
+    input  wire        frame_open,
+    input  wire [15:0] frame_points,  // as the loader counts them
+    output wire        give_up,
     // results
     output wire        write_valid,
     output wire [ 5:0] write_index,
     output wire [31:0] write_data,
     output wire [ 2:0] commit,  // all, pose, q
+    output wire        verifying,
+    input  wire        differs,
     // status
     output wire [ 2:0] state_code,
     output wire        busy,
@@ -54,20 +62,25 @@ module oltae_core #(
     output wire        rank_deficient,
     output wire        ill_conditioned,
     output wire        saturated,
-    output wire        watchdog
+    output wire        watchdog,
+    output wire        complete,
+    // upsets
+    input  wire        upset_elsewhere,
+    output wire        upset
 );
   // ------------------------------------------------------------------ state machine
   wire chosen, engine_rank_deficient, engine_ill_conditioned, engine_saturated;
   wire q_done, pose_done, all_done;
   wire [1:0] engine_turn;
-  wire computing;
+  wire loading, computing, again, redrain_all;
 
   assign rank_deficient  = computing & chosen & engine_rank_deficient;
-  assign ill_conditioned = computing & chosen & engine_ill_conditioned;
-  assign saturated       = commit[1] & engine_saturated;
+  assign ill_conditioned = (computing | verifying) & chosen & engine_ill_conditioned;
+  assign saturated       = (commit[1] | (verifying & pose_done)) & engine_saturated;
 
   frame_state #(
       .WATCHDOG_BITS(11),  // the longest program takes half of them
+      .VERIFY(VERIFY),
       .LOADING_NAME ("LOAD")
   ) states (
       .clk(clk),
@@ -80,8 +93,14 @@ module oltae_core #(
       .frame_dropped(frame_dropped),
       .done({all_done, pose_done, q_done}),
       .refused(rank_deficient),
+      .upset(upset),
+      .loading(loading),
       .computing(computing),
+      .verifying(verifying),
+      .again(again),
+      .redrain(redrain_all),
       .commit(commit),
+      .complete(complete),
       .state(state_code),
       .busy(busy),
       .ready(ready),
@@ -91,10 +110,43 @@ module oltae_core #(
       .watchdog(watchdog)
   );
 
+  // ------------------------------------------------------------------ upsets
+  wire flush = clear | soft_reset;
+  wire checked, mismatch, array_differs;  // the sums with the beats
+  wire [`RELNAV_W(WEIGHTED)-1:0] weight_sum;
+  wire [`RELNAV_COUNT-1:0] point_count, used_count;
+  wire [31:0] wide_weight = {{(32 - `RELNAV_W(WEIGHTED)) {1'b0}}, weight_sum};
+  core_upsets #(
+      .RECORD(50),
+      .VERIFY(VERIFY)
+  ) upsets (
+      .clk(clk),
+      .rst(rst),
+      .loading(loading),
+      .computing(computing),
+      .verifying(verifying),
+      .again(again),
+      .forget(flush),
+      .ended(all_done),
+      .open(frame_open),
+      .frame_rows(frame_points),
+      .array_rows(point_count),
+      .checked(checked),
+      .mismatch(mismatch),
+      .differ(array_differs),
+      .differs(differs),
+      .repeated(verifying & q_done),
+      .refused(chosen & engine_rank_deficient),
+      .record({points, weight, turn}),
+      .record_again({point_count, wide_weight, engine_turn}),
+      .elsewhere(upset_elsewhere),
+      .upset(upset),
+      .give_up(give_up)
+  );
   always @(posedge clk) begin
     if (commit[0]) begin
       points <= point_count;
-      weight <= {{(32 - `RELNAV_W(WEIGHTED)) {1'b0}}, weight_sum};
+      weight <= wide_weight;
       turn   <= engine_turn;
     end
     if (rst) {points, weight, turn} <= 50'd0;
@@ -106,20 +158,22 @@ module oltae_core #(
   wire [2:0] pair_lane;
   wire signed [`RELNAV_M2(WEIGHTED)-1:0] pair_moment;
   wire signed [`RELNAV_M1(WEIGHTED)-1:0] pair_first_i, pair_first_j;
-  wire [`RELNAV_W(WEIGHTED)-1:0] weight_sum;
-  wire [`RELNAV_COUNT-1:0] point_count, used_count;
   wire [6*`RELNAV_M1(WEIGHTED)-1:0] first_moments;
-  wire flush = clear | soft_reset;
+  wire value_valid;
+  wire [4:0] value_address;
+  wire signed [`RELNAV_M1(WEIGHTED)-1:0] value;
+  wire forget = flush | again;  // all but the sums
   wire engine_redrain;
   reg redrain;   // a clock later: the way from the program's address to the lanes is long, and the schedule leaves that clock
   reg low_pass;  // the second drain, for the low limbs
   always @(posedge clk) begin
-    redrain  <= engine_redrain & ~flush & ~rst;
-    low_pass <= (low_pass | redrain) & ~flush & ~rst;
+    redrain  <= engine_redrain & ~forget & ~rst;
+    low_pass <= (low_pass | redrain) & ~forget & ~rst;
   end
 
   gram_array #(
-      .WEIGHTED(WEIGHTED)
+      .WEIGHTED(WEIGHTED),
+      .CHECK(VERIFY)
   ) gram (
       .clk(clk),
       .rst(rst),
@@ -131,7 +185,14 @@ module oltae_core #(
       .beat_index(beat_index),
       .beat_weight(beat_weight),
       .beat_last(beat_last),
-      .redrain(redrain),
+      .redrain(redrain | redrain_all),
+      .check(~low_pass),
+      .value_valid(value_valid),
+      .value_address(value_address),
+      .value(value),
+      .checked(checked),
+      .mismatch(mismatch),
+      .differ(array_differs),
       .pair_valid(pair_valid),
       .pair_slot(pair_slot),
       .pair_lane(pair_lane),
@@ -149,16 +210,13 @@ module oltae_core #(
   wire signed [11:0] first_scale = -{{4{config_frac[7]}}, config_frac};
   wire signed [11:0] pair_scale = (first_scale <<< 1) + (pair_lane == 3'd2 ? 12'sd1 : 12'sd0);
 
-  wire value_valid;
-  wire [4:0] value_address;
-  wire signed [`RELNAV_M1(WEIGHTED)-1:0] value;
   wire signed [11:0] value_scale;
   value_feeder #(
       .WEIGHTED(WEIGHTED)
   ) feeder (
       .clk(clk),
       .rst(rst),
-      .clear(flush),
+      .clear(forget),
       .pair_last(pair_last & pair_valid & ~low_pass),
       .weight_sum(weight_sum),
       .used_count(used_count),
@@ -184,7 +242,7 @@ module oltae_core #(
       .TAG_BITS(7)
   ) stream (
       .clk(clk),
-      .rst(rst | flush),
+      .rst(rst | forget),
       .low(low_pass),
       .pair_valid(pair_valid),
       .pair_tag({low_pass, 1'b0, pair_slot, pair_lane}),
@@ -234,7 +292,7 @@ module oltae_core #(
       .REAPPLY(REAPPLY)
   ) engine (
       .clk(clk),
-      .rst(rst | flush),
+      .rst(rst | forget),
       .forbid_turns(config_forbid_turns),
       .covariance(COVARIANCE != 0 && config_covariance),
       .reapply(REAPPLY != 0 && config_reapply),

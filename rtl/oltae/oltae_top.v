@@ -6,14 +6,16 @@
 //             tlast with the last beat of a frame
 //   irq       level, on a completed frame or a raised flag, each maskable
 //
-// WEIGHTED, COVARIANCE, REAPPLY = 0 leave their hardware out (the lean build).
+// WEIGHTED, COVARIANCE, REAPPLY, VERIFY = 0 leave their hardware out (the lean build); without VERIFY a frame is not solved a second time,
+// nor its sums checked (docs/decisions/upsets.md).
 `include "relnav_words.vh"
 `resetall
 `default_nettype none
 module oltae_top #(
     parameter WEIGHTED   = 1,
     parameter COVARIANCE = 1,
-    parameter REAPPLY    = 1
+    parameter REAPPLY    = 1,
+    parameter VERIFY     = 1
 ) (
     input  wire        clk,
     input  wire        rst,
@@ -45,6 +47,8 @@ module oltae_top #(
     // interrupt
     output wire        irq
 );
+  wire give_up, frame_open, verifying, differs, complete, upset, configuration_upset, loader_upset;
+  wire [15:0] frame_rows;
   wire soft_reset, acknowledge;
   wire config_weighted, config_forbid_turns, config_reapply, config_covariance;
   wire [7:0] config_frac;
@@ -66,6 +70,7 @@ module oltae_top #(
       .WEIGHTED(WEIGHTED),
       .COVARIANCE(COVARIANCE),
       .REAPPLY(REAPPLY),
+      .VERIFY(VERIFY),
       .MANTISSA(`RELNAV_MANT)
   ) registers (
       .clk(clk),
@@ -106,9 +111,11 @@ module oltae_top #(
       .state(state),
       .ready({all_ready, pose_ready, q_ready}),
       // the register file adds BUSY_WRITE and NOT_BUILT itself
-      .flag_set({1'b0, watchdog, ill_conditioned, saturated, 1'b0, bad_tlast, too_long, zero_weight, rank_deficient, few_points}),
+      .flag_set({
+        upset, 1'b0, watchdog, ill_conditioned, saturated, 1'b0, bad_tlast, too_long, zero_weight, rank_deficient, few_points
+      }),
       .frame_start(frame_start),
-      .frame_complete(all_commit),
+      .frame_complete(complete),
       .points(points),
       .weight(weight),
       .turn(turn),
@@ -119,6 +126,7 @@ module oltae_top #(
       .result_index(result_index),
       .result_wait(result_wait),
       .result_data(result_data),
+      .upset(configuration_upset),
       .irq(irq)
   );
 
@@ -160,7 +168,11 @@ module oltae_top #(
       .few_rows(few_points),
       .zero_weight(zero_weight),
       .bad_tlast(bad_tlast),
-      .too_long(too_long)
+      .too_long(too_long),
+      .give_up(give_up),
+      .open(frame_open),
+      .rows(frame_rows),
+      .upset(loader_upset)
   );
 
   wire write_valid;
@@ -170,7 +182,8 @@ module oltae_top #(
   oltae_core #(
       .WEIGHTED(WEIGHTED),
       .COVARIANCE(COVARIANCE),
-      .REAPPLY(REAPPLY)
+      .REAPPLY(REAPPLY),
+      .VERIFY(VERIFY)
   ) core (
       .clk(clk),
       .rst(rst),
@@ -193,6 +206,9 @@ module oltae_top #(
       .frame_start(frame_start),
       .frame_end(frame_end),
       .frame_dropped(frame_dropped),
+      .frame_open(frame_open),
+      .frame_points(frame_rows),
+      .give_up(give_up),
       .write_valid(write_valid),
       .write_index(write_index),
       .write_data(write_data),
@@ -209,12 +225,18 @@ module oltae_top #(
       .rank_deficient(rank_deficient),
       .ill_conditioned(ill_conditioned),
       .saturated(saturated),
-      .watchdog(watchdog)
+      .watchdog(watchdog),
+      .verifying(verifying),
+      .differs(differs),
+      .complete(complete),
+      .upset_elsewhere(configuration_upset | loader_upset),
+      .upset(upset)
   );
 
   result_store #(
       .MIDDLE_FIRST(3),  // q
-      .LAST_FIRST  (18)  // q in Q15.16, R, t; then all else
+      .LAST_FIRST  (18),  // q in Q15.16, R, t; then all else
+      .VERIFY(VERIFY)
   ) store (
       .clk(clk),
       .rst(rst),
@@ -222,6 +244,8 @@ module oltae_top #(
       .write_index(write_index),
       .write_data(write_data),
       .commit({all_commit, pose_commit, q_commit}),
+      .verify(verifying),
+      .differs(differs),
       .read_valid(result_valid),
       .read_index(result_index),
       .read_wait(result_wait),

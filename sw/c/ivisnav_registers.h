@@ -41,19 +41,21 @@ typedef volatile struct {
 #define IVISNAV_AT(base) ((ivisnav_registers *)(uintptr_t)(base))
 
 #define IVISNAV_ID_VALUE UINT32_C(0x49564953)
+#define IVISNAV_VERSION_VALUE UINT32_C(0x00000100)
 #define IVISNAV_VERSION_PATCH UINT32_C(0x000000FF) /* patch */
 #define IVISNAV_VERSION_PATCH_SHIFT 0
 #define IVISNAV_VERSION_MINOR UINT32_C(0x0000FF00) /* minor */
 #define IVISNAV_VERSION_MINOR_SHIFT 8
 #define IVISNAV_VERSION_MAJOR UINT32_C(0x00FF0000) /* major */
 #define IVISNAV_VERSION_MAJOR_SHIFT 16
+#define IVISNAV_BUILD_VERIFY UINT32_C(0x00000008) /* results are verified by a second pass */
 #define IVISNAV_BUILD_MANTISSA UINT32_C(0x0000FF00) /* bits of a mantissa */
 #define IVISNAV_BUILD_MANTISSA_SHIFT 8
 #define IVISNAV_CONTROL_SOFT_RESET UINT32_C(0x00000001) /* drop the frame at hand and any waiting push */
 #define IVISNAV_CONTROL_ACKNOWLEDGE UINT32_C(0x00000002) /* DONE back to IDLE */
 #define IVISNAV_STATUS_STATE UINT32_C(0x00000007) /* state machine */
 #define IVISNAV_STATUS_STATE_SHIFT 0
-#define IVISNAV_STATUS_BUSY UINT32_C(0x00000010) /* SEND_DATA or COMPUTE */
+#define IVISNAV_STATUS_BUSY UINT32_C(0x00000010) /* SEND_DATA, COMPUTE or VERIFY */
 #define IVISNAV_STATUS_RATES_READY UINT32_C(0x00000020) /* v and omega of the last frame started can be read */
 #define IVISNAV_STATUS_ALL_READY UINT32_C(0x00000080) /* covariance and rss can be read */
 #define IVISNAV_STATUS_PUSH_READY UINT32_C(0x00000100) /* a PUSH would be taken */
@@ -67,6 +69,7 @@ typedef volatile struct {
 #define IVISNAV_FLAGS_BUSY_WRITE UINT32_C(0x00000020) /* a write to FRAC or VARIANCE of a busy core, or to DATA_A, DATA_B or PUSH while a push could not be taken */
 #define IVISNAV_FLAGS_ILL_CONDITIONED UINT32_C(0x00000080) /* conditioning beyond what the arithmetic carries */
 #define IVISNAV_FLAGS_WATCHDOG UINT32_C(0x00000100) /* the state machine was stuck and returned to IDLE */
+#define IVISNAV_FLAGS_UPSET UINT32_C(0x00000400) /* a protection noticed an upset of the logic */
 #define IVISNAV_FRAME_FLAGS_FEW_ROWS UINT32_C(0x00000001) /* fewer than six rows */
 #define IVISNAV_FRAME_FLAGS_RANK_DEFICIENT UINT32_C(0x00000002) /* rows that do not span six dimensions */
 #define IVISNAV_FRAME_FLAGS_ZERO_WEIGHT UINT32_C(0x00000004) /* all weights are zero */
@@ -75,6 +78,7 @@ typedef volatile struct {
 #define IVISNAV_FRAME_FLAGS_BUSY_WRITE UINT32_C(0x00000020) /* a write to FRAC or VARIANCE of a busy core, or to DATA_A, DATA_B or PUSH while a push could not be taken */
 #define IVISNAV_FRAME_FLAGS_ILL_CONDITIONED UINT32_C(0x00000080) /* conditioning beyond what the arithmetic carries */
 #define IVISNAV_FRAME_FLAGS_WATCHDOG UINT32_C(0x00000100) /* the state machine was stuck and returned to IDLE */
+#define IVISNAV_FRAME_FLAGS_UPSET UINT32_C(0x00000400) /* a protection noticed an upset of the logic */
 #define IVISNAV_IRQ_ENABLE_DONE UINT32_C(0x00000001) /* on a completed frame */
 #define IVISNAV_IRQ_ENABLE_ERROR UINT32_C(0x00000002) /* on any flag */
 #define IVISNAV_IRQ_STATUS_DONE UINT32_C(0x00000001) /* a frame was completed */
@@ -95,7 +99,8 @@ enum {
     IVISNAV_STATE_IDLE = 0, /* no frame open, no result waiting */
     IVISNAV_STATE_SEND_DATA = 1, /* a frame is open */
     IVISNAV_STATE_COMPUTE = 2, /* the frame is complete and being solved */
-    IVISNAV_STATE_DONE = 3, /* all results stand; held until acknowledged or the next frame's first beat */
+    IVISNAV_STATE_DONE = 3, /* all results stand and are verified; held until acknowledged or the next frame's first beat */
+    IVISNAV_STATE_VERIFY = 4, /* all results stand; they are computed a second time and compared */
 };
 
 /* The compiler stops here when the struct is not laid out as the hardware is. */

@@ -47,6 +47,7 @@ typedef volatile struct {
 #define OLTAE_AT(base) ((oltae_registers *)(uintptr_t)(base))
 
 #define OLTAE_ID_VALUE UINT32_C(0x4F4C5445)
+#define OLTAE_VERSION_VALUE UINT32_C(0x00000100)
 #define OLTAE_VERSION_PATCH UINT32_C(0x000000FF) /* patch */
 #define OLTAE_VERSION_PATCH_SHIFT 0
 #define OLTAE_VERSION_MINOR UINT32_C(0x0000FF00) /* minor */
@@ -56,13 +57,14 @@ typedef volatile struct {
 #define OLTAE_BUILD_WEIGHTED UINT32_C(0x00000001) /* weighted frames */
 #define OLTAE_BUILD_COVARIANCE UINT32_C(0x00000002) /* covariances of q and t */
 #define OLTAE_BUILD_REAPPLY UINT32_C(0x00000004) /* re-application (Wahba's optimum) */
+#define OLTAE_BUILD_VERIFY UINT32_C(0x00000008) /* results are verified by a second pass */
 #define OLTAE_BUILD_MANTISSA UINT32_C(0x0000FF00) /* bits of a mantissa */
 #define OLTAE_BUILD_MANTISSA_SHIFT 8
 #define OLTAE_CONTROL_SOFT_RESET UINT32_C(0x00000001) /* drop the frame at hand and any waiting push */
 #define OLTAE_CONTROL_ACKNOWLEDGE UINT32_C(0x00000002) /* DONE back to IDLE */
 #define OLTAE_STATUS_STATE UINT32_C(0x00000007) /* state machine */
 #define OLTAE_STATUS_STATE_SHIFT 0
-#define OLTAE_STATUS_BUSY UINT32_C(0x00000010) /* LOAD or COMPUTE */
+#define OLTAE_STATUS_BUSY UINT32_C(0x00000010) /* LOAD, COMPUTE or VERIFY */
 #define OLTAE_STATUS_Q_READY UINT32_C(0x00000020) /* q of the last frame started can be read */
 #define OLTAE_STATUS_POSE_READY UINT32_C(0x00000040) /* R and t can be read */
 #define OLTAE_STATUS_ALL_READY UINT32_C(0x00000080) /* covariance, rss and the rest can be read */
@@ -79,6 +81,7 @@ typedef volatile struct {
 #define OLTAE_FLAGS_ILL_CONDITIONED UINT32_C(0x00000080) /* conditioning beyond what the arithmetic carries */
 #define OLTAE_FLAGS_WATCHDOG UINT32_C(0x00000100) /* the state machine was stuck and returned to IDLE */
 #define OLTAE_FLAGS_NOT_BUILT UINT32_C(0x00000200) /* CONFIG asked for something this build has not */
+#define OLTAE_FLAGS_UPSET UINT32_C(0x00000400) /* a protection noticed an upset of the logic */
 #define OLTAE_FRAME_FLAGS_FEW_POINTS UINT32_C(0x00000001) /* fewer than three points */
 #define OLTAE_FRAME_FLAGS_RANK_DEFICIENT UINT32_C(0x00000002) /* collinear or coincident points */
 #define OLTAE_FRAME_FLAGS_ZERO_WEIGHT UINT32_C(0x00000004) /* all weights are zero */
@@ -89,6 +92,7 @@ typedef volatile struct {
 #define OLTAE_FRAME_FLAGS_ILL_CONDITIONED UINT32_C(0x00000080) /* conditioning beyond what the arithmetic carries */
 #define OLTAE_FRAME_FLAGS_WATCHDOG UINT32_C(0x00000100) /* the state machine was stuck and returned to IDLE */
 #define OLTAE_FRAME_FLAGS_NOT_BUILT UINT32_C(0x00000200) /* CONFIG asked for something this build has not */
+#define OLTAE_FRAME_FLAGS_UPSET UINT32_C(0x00000400) /* a protection noticed an upset of the logic */
 #define OLTAE_IRQ_ENABLE_DONE UINT32_C(0x00000001) /* on a completed frame */
 #define OLTAE_IRQ_ENABLE_ERROR UINT32_C(0x00000002) /* on any flag */
 #define OLTAE_IRQ_STATUS_DONE UINT32_C(0x00000001) /* a frame was completed */
@@ -122,7 +126,8 @@ enum {
     OLTAE_STATE_IDLE = 0, /* no frame open, no result waiting */
     OLTAE_STATE_LOAD = 1, /* a frame is open */
     OLTAE_STATE_COMPUTE = 2, /* the frame is complete and being solved */
-    OLTAE_STATE_DONE = 3, /* all results stand; held until acknowledged or the next frame's first beat */
+    OLTAE_STATE_DONE = 3, /* all results stand and are verified; held until acknowledged or the next frame's first beat */
+    OLTAE_STATE_VERIFY = 4, /* all results stand; they are computed a second time and compared */
 };
 
 /* The compiler stops here when the struct is not laid out as the hardware is. */

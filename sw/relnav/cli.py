@@ -15,6 +15,7 @@ from typing import Any, NoReturn, TypeVar
 
 from . import __version__
 from .backends import BACKENDS, solve
+from .checkout import CORES, RTL, copy_rtl, rtl_files
 from .errors import BackendError, RelnavError, one_line
 from .frames import read_frames
 from .ivisnav.backends import solve_rates
@@ -126,6 +127,18 @@ def proximity_command(options: argparse.Namespace) -> int:
     return code
 
 
+def rtl_command(options: argparse.Namespace) -> int:
+    """The Verilog that this installation has: its folder, its files, a copy."""
+    if options.core is not None and not options.list:
+        raise RelnavError("--core goes with --list")
+    if options.copy is not None:
+        print(f"{copy_rtl(options.copy)} files in {options.copy}")
+        return 0
+    files = rtl_files(options.core)
+    print("\n".join(map(str, files)) if options.list else RTL)
+    return 0
+
+
 def _part(name: str) -> Any:
     """A command's module, with all it needs, loaded when it is used."""
     try:
@@ -217,6 +230,13 @@ def _parser() -> argparse.ArgumentParser:
     )
     proximity.add_argument("--rtl", type=Path, metavar="DIR", help="simulate this copy of the RTL")
     proximity.set_defaults(run=proximity_command)
+
+    rtl = commands.add_parser("rtl", help="the folder of the cores' Verilog, its files, or a copy of it")
+    what = rtl.add_mutually_exclusive_group()
+    what.add_argument("--copy", type=Path, metavar="DIR", help="copy it to this new folder")
+    what.add_argument("--list", action="store_true", help="list the files, one a line")
+    rtl.add_argument("--core", choices=CORES, help="only the modules of this core (with --list)")
+    rtl.set_defaults(run=rtl_command)
     return parser
 
 

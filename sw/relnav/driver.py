@@ -1,7 +1,12 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Drivers of the cores, for any bus that reads and writes words: the simulator's, /dev/mem's, PYNQ's.
+"""Drivers of the cores, for any bus that reads and writes words.
 
-`CoreDriver` is what every core has; `OltaeDriver` and relnav.ivisnav.driver.IvisnavDriver add their frames.
+Buses: the simulator's (relnav.rtlsim.bus), /dev/mem's and UIO's (relnav.buses.memory_map), PYNQ's
+(relnav.buses.pynq). `CoreDriver` is what every core has; `OltaeDriver` and
+relnav.ivisnav.driver.IvisnavDriver add their frames.
+
+What is read may have been upset on its way: results, and all that decides whether there are any, are read
+until two readings in a row agree, and FLAGS are looked at after the results.
 """
 
 from __future__ import annotations
@@ -14,7 +19,7 @@ from typing import Any, ClassVar, Generic, Literal, Protocol, TypeVar
 import numpy as np
 import numpy.typing as npt
 
-from .errors import BackendError, InputError
+from .errors import BackendError, InputError, UpsetError
 from .model.raw import RESULT_WORDS, CoreConfig, RawResult, results_from_words
 from .quantise import IntArray, QuantisedFrame
 from .registermap import Register
@@ -24,6 +29,9 @@ from .result import FAILURES
 Feed = Literal["stream", "registers"]
 
 POLLS = 10_000  # of STATUS, before a frame counts as lost; a solved frame takes about 40 on the slowest bus
+READINGS = 4  # of the same registers, of which two in a row have to agree
+
+Value = TypeVar("Value")
 
 
 class Bus(Protocol):
@@ -91,6 +99,23 @@ class CoreDriver(Generic[StatusT]):
         """Write a register's word."""
         self.bus.write(register.ADDRESS, word)
 
+    def read_twice(self, take: Callable[[], Value]) -> Value:
+        """What `take` reads, once two readings in a row agree; raises UpsetError where none do."""
+        before = take()
+        for _ in range(READINGS - 1):
+            again = take()
+            if again == before:
+                return again
+            before = again
+        raise UpsetError(f"{READINGS} readings of the same registers differ: the bus or the core is upset")
+
+    def write_checked(self, register: type[Register], word: int) -> None:
+        """Write a register's word that stays; raises UpsetError where it is not what is then read."""
+        self.write(register, word)
+        found = self.read_twice(lambda: self.read(register))
+        if found != word:
+            raise UpsetError(f"{register.__name__} reads 0x{found:08x} after 0x{word:08x} was written")
+
     # ------------------------------------------------------------------ control
 
     def check_identity(self) -> int:
@@ -128,6 +153,10 @@ class CoreDriver(Generic[StatusT]):
         """The sticky FLAGS."""
         return self.read(self.MAP.FLAGS)
 
+    def frame_flags(self) -> int:
+        """The FRAME_FLAGS, those of the last frame."""
+        return self.read(self.MAP.FRAME_FLAGS)
+
     def clear_flags(self, bits: int | None = None) -> None:
         """Clear these sticky FLAGS, all by default."""
         every = sum(field.mask for field in self.MAP.FLAGS.FIELDS.values())
@@ -151,19 +180,30 @@ class CoreDriver(Generic[StatusT]):
         """Drop the frame at hand; configuration, flags and results stay. Stop the stream's sender first."""
         self.write(self.MAP.CONTROL, self.MAP.CONTROL.encode(SOFT_RESET=1))
 
+    def recover(self) -> None:
+        """After an UpsetError: drop the frame at hand, clear flags and interrupts.
+
+        Stop the stream's sender first. `configure` (and so `solve`) then writes the configuration again.
+        """
+        self.soft_reset()
+        self.clear_flags()
+        self.clear_interrupts()
+
     # ------------------------------------------------------------------ frames
 
     def feed(self, beats: Sequence[int], feed: Feed = "stream") -> int:
         """Give the core one frame; returns the ticket that `wait` takes.
 
-        feed: "stream", or "registers", which needs no DMA. Clears the sticky FLAGS.
+        feed: "stream", or "registers", which needs no DMA. Clears the sticky FLAGS and IRQ_STATUS, so that
+        the interrupt is this frame's.
         Raises InputError for a frame without beats, which nothing could end; BackendError when it cannot be
         pushed.
         """
         if not beats:
             raise InputError(f"a frame without {self.ROWS} cannot be given to the core")
         self.clear_flags()
-        status = self.status()
+        self.clear_interrupts()
+        status = self.read_twice(self.status)
         if feed == "stream":
             self.bus.stream(beats)
             return status.frame
@@ -184,17 +224,41 @@ class CoreDriver(Generic[StatusT]):
         """Wait for the frame of this ticket; True when it was solved, False when it failed (see FRAME_FLAGS).
 
         What counts is the number of completed frames and the FLAGS that `feed` cleared: neither can be the
-        frame's before, however late the core takes the first beat. Raises BackendError after `polls`.
+        frame's before, however late the core takes the first beat. Two looks in a row have to say the same.
+        Raises BackendError after `polls`. Call it before `acknowledge`, and before the next frame is fed.
         """
+        before: bool | None = None
         for _ in range(polls):
-            flags = self.flags()  # before STATUS: TOO_LONG rises while the frame is still swallowed
-            status = self.status()
-            if status.frame != ticket:
-                return True
-            if flags & self.FAILURE_BITS and not status.busy:
-                return False
-            self.idle()
-        raise BackendError(f"no result after {polls} looks at the core: its state is {status.state.name}")
+            solved = self._outcome(ticket)
+            if solved is not None and solved == before:
+                return solved
+            if solved is None:
+                self.idle()
+            before = solved
+        state = self.status().state.name
+        raise BackendError(f"no result after {polls} looks at the core: its state is {state}")
+
+    def _outcome(self, ticket: int) -> bool | None:
+        """One look at the frame of this ticket: solved, failed, or None: not over yet."""
+        flags = self.flags()  # before STATUS: TOO_LONG rises while the frame is still swallowed
+        status = self.status()
+        # all of it: one wrong bit must not make a frame of none, nor provisional results verified ones
+        if status.frame != ticket and status.state.name == "DONE" and status.all_ready:
+            return True
+        return False if flags & self.FAILURE_BITS and not status.busy else None
+
+    def finish(self, ticket: int, polls: int, take: Callable[[], Value]) -> Value | None:
+        """Wait for the frame of this ticket; what `take` then reads, or None where the frame failed.
+
+        Raises UpsetError where the core noticed an upset, of this frame or while its results were read.
+        """
+        solved = self.wait(ticket, polls)
+        taken = self.read_twice(take) if solved else None
+        found = self.flags() | self.frame_flags()
+        if found & self.MAP.FLAGS.UPSET.mask or (solved and found & self.FAILURE_BITS):
+            names = ", ".join(name for name, set_ in self.MAP.FLAGS.decode(found).items() if set_)
+            raise UpsetError(f"the {self.NAME} core was upset (FLAGS: {names}): give the frame again")
+        return taken
 
     def result_words(self, first: type[Register], count: int) -> list[int]:
         """The result registers, from the first on."""
@@ -268,12 +332,12 @@ class OltaeDriver(CoreDriver[Status]):
         )
         self.check_unlocked()
         self.write(Oltae.CONFIG, word)
-        kept = self.read(Oltae.CONFIG)  # a bit that is not built reads as 0
+        kept = self.read_twice(lambda: self.read(Oltae.CONFIG))  # a bit that is not built reads as 0
         if weighted and not Oltae.CONFIG.WEIGHTED.get(kept):
             raise BackendError("this core was built without weights")
         self._covariance = bool(Oltae.CONFIG.COVARIANCE.get(kept))
-        self.write(Oltae.FRAC, Oltae.FRAC.encode(FRAC=frac))
-        self.write(Oltae.VARIANCE, variance)
+        self.write_checked(Oltae.FRAC, Oltae.FRAC.encode(FRAC=frac))
+        self.write_checked(Oltae.VARIANCE, variance)
 
     def result(self) -> RawResult:
         """The registers of the frame that was solved last, with its flags and cycles."""
@@ -297,13 +361,15 @@ class OltaeDriver(CoreDriver[Status]):
         feed: Feed = "stream",
         polls: int = POLLS,
     ) -> RawResult:
-        """Configure, feed, wait, read. A frame that failed has its flags and no numbers."""
+        """Configure, feed, wait, read. A frame that failed has its flags and no numbers.
+
+        Raises UpsetError for numbers that are not to be believed: `recover`, and give the frame again.
+        """
         self.configure(
             config or CoreConfig(),
             frac=frame.frac,
             weighted=frame.w is not None,
             weight_scale=frame.weight_scale,
         )
-        if self.wait(self.feed(beats_of(frame), feed), polls):
-            return self.result()
-        return RawResult(flags=self.read(Oltae.FRAME_FLAGS))
+        result = self.finish(self.feed(beats_of(frame), feed), polls, self.result)
+        return result or RawResult(flags=self.read_twice(self.frame_flags))

@@ -22,3 +22,10 @@ class InputError(RelnavError, ValueError):
 
 class BackendError(RelnavError):
     """A backend that cannot run: a tool or a part of the package is missing, or the simulation failed."""
+
+
+class UpsetError(BackendError):
+    """The core or the way to it was upset, by radiation say: what was read is not to be believed.
+
+    CoreDriver.recover makes the core ready for the frame to be given again.
+    """

@@ -9,7 +9,8 @@ from pathlib import Path
 
 from tqdm import tqdm
 
-from .backends import ROOT, SIMULATORS, installed_simulator, solve
+from .backends import SIMULATORS, installed_simulator, solve
+from .checkout import ROOT, build_folder
 from .comparison import Solutions, exact_poses, paper_runs
 from .errors import BackendError
 from .frames import Frame
@@ -26,7 +27,7 @@ from .sensor.terrain import load_terrain
 
 Solver = Callable[[Sequence[Frame], str, CoreConfig, Path | None], list[PoseResult]]
 
-WAVES = ROOT / "build" / "waves"
+WAVES = build_folder() / "waves"
 TRACED = 2  # frames in the waveform, back to back
 AREA = ROOT / "syn" / "results.json"
 EXIT_DIFFERENT = 1

@@ -12,7 +12,8 @@ import numpy as np
 from tqdm import tqdm
 
 from .attitude import FloatArray
-from .backends import ROOT, installed_simulator, solve
+from .backends import installed_simulator, solve
+from .checkout import ROOT
 from .errors import BackendError
 from .frames import Frame
 from .ivisnav.backends import solve_rates

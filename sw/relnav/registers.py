@@ -18,7 +18,8 @@ class Ivisnav:
         IDLE = 0  # no frame open, no result waiting
         SEND_DATA = 1  # a frame is open
         COMPUTE = 2  # the frame is complete and being solved
-        DONE = 3  # all results stand; held until acknowledged or the next frame's first beat
+        DONE = 3  # all results stand and are verified; held until acknowledged or the next frame's first beat
+        VERIFY = 4  # all results stand; they are computed a second time and compared
 
     class ID(Register):
         """Identity. Reads "IVIS". A driver checks it before anything else."""
@@ -45,8 +46,9 @@ class Ivisnav:
 
         ADDRESS = 0x008
         ACCESS = "ro"
+        VERIFY = Field(3, 1)
         MANTISSA = Field(8, 8)
-        FIELDS = {"MANTISSA": MANTISSA}
+        FIELDS = {"VERIFY": VERIFY, "MANTISSA": MANTISSA}
 
     class CONTROL(Register):
         """Control. Writing 1 acts once."""
@@ -92,6 +94,7 @@ class Ivisnav:
         BUSY_WRITE = Field(5, 1)
         ILL_CONDITIONED = Field(7, 1)
         WATCHDOG = Field(8, 1)
+        UPSET = Field(10, 1)
         FIELDS = {
             "FEW_ROWS": FEW_ROWS,
             "RANK_DEFICIENT": RANK_DEFICIENT,
@@ -101,6 +104,7 @@ class Ivisnav:
             "BUSY_WRITE": BUSY_WRITE,
             "ILL_CONDITIONED": ILL_CONDITIONED,
             "WATCHDOG": WATCHDOG,
+            "UPSET": UPSET,
         }
 
     class FRAME_FLAGS(Register):
@@ -116,6 +120,7 @@ class Ivisnav:
         BUSY_WRITE = Field(5, 1)
         ILL_CONDITIONED = Field(7, 1)
         WATCHDOG = Field(8, 1)
+        UPSET = Field(10, 1)
         FIELDS = {
             "FEW_ROWS": FEW_ROWS,
             "RANK_DEFICIENT": RANK_DEFICIENT,
@@ -125,6 +130,7 @@ class Ivisnav:
             "BUSY_WRITE": BUSY_WRITE,
             "ILL_CONDITIONED": ILL_CONDITIONED,
             "WATCHDOG": WATCHDOG,
+            "UPSET": UPSET,
         }
 
     class IRQ_ENABLE(Register):
@@ -288,7 +294,8 @@ class Oltae:
         IDLE = 0  # no frame open, no result waiting
         LOAD = 1  # a frame is open
         COMPUTE = 2  # the frame is complete and being solved
-        DONE = 3  # all results stand; held until acknowledged or the next frame's first beat
+        DONE = 3  # all results stand and are verified; held until acknowledged or the next frame's first beat
+        VERIFY = 4  # all results stand; they are computed a second time and compared
 
     class ID(Register):
         """Identity. Reads "OLTE". A driver checks it before anything else."""
@@ -318,8 +325,15 @@ class Oltae:
         WEIGHTED = Field(0, 1)
         COVARIANCE = Field(1, 1)
         REAPPLY = Field(2, 1)
+        VERIFY = Field(3, 1)
         MANTISSA = Field(8, 8)
-        FIELDS = {"WEIGHTED": WEIGHTED, "COVARIANCE": COVARIANCE, "REAPPLY": REAPPLY, "MANTISSA": MANTISSA}
+        FIELDS = {
+            "WEIGHTED": WEIGHTED,
+            "COVARIANCE": COVARIANCE,
+            "REAPPLY": REAPPLY,
+            "VERIFY": VERIFY,
+            "MANTISSA": MANTISSA,
+        }
 
     class CONTROL(Register):
         """Control. Writing 1 acts once."""
@@ -369,6 +383,7 @@ class Oltae:
         ILL_CONDITIONED = Field(7, 1)
         WATCHDOG = Field(8, 1)
         NOT_BUILT = Field(9, 1)
+        UPSET = Field(10, 1)
         FIELDS = {
             "FEW_POINTS": FEW_POINTS,
             "RANK_DEFICIENT": RANK_DEFICIENT,
@@ -380,6 +395,7 @@ class Oltae:
             "ILL_CONDITIONED": ILL_CONDITIONED,
             "WATCHDOG": WATCHDOG,
             "NOT_BUILT": NOT_BUILT,
+            "UPSET": UPSET,
         }
 
     class FRAME_FLAGS(Register):
@@ -397,6 +413,7 @@ class Oltae:
         ILL_CONDITIONED = Field(7, 1)
         WATCHDOG = Field(8, 1)
         NOT_BUILT = Field(9, 1)
+        UPSET = Field(10, 1)
         FIELDS = {
             "FEW_POINTS": FEW_POINTS,
             "RANK_DEFICIENT": RANK_DEFICIENT,
@@ -408,6 +425,7 @@ class Oltae:
             "ILL_CONDITIONED": ILL_CONDITIONED,
             "WATCHDOG": WATCHDOG,
             "NOT_BUILT": NOT_BUILT,
+            "UPSET": UPSET,
         }
 
     class IRQ_ENABLE(Register):

@@ -289,7 +289,7 @@ def c_header(core: CoreView) -> str:
     ]
     for register in core.registers:
         prefix = f"{upper}_{register.name}"
-        if register.access == "ro" and register.reset is not None and len(register.fields) == 1:
+        if register.access == "ro" and register.reset is not None:
             lines.append(f"#define {prefix}_VALUE UINT32_C(0x{register.reset:08X})")
         for field in register.fields:
             if field.width == 32:

@@ -21,11 +21,12 @@ FLAG_NAMES: tuple[str, ...] = (
     "ILL_CONDITIONED",
     "WATCHDOG",
     "NOT_BUILT",
+    "UPSET",
 )
 
 # A frame with one of these has no numbers.
 FAILURES: frozenset[str] = frozenset(
-    ("FEW_POINTS", "RANK_DEFICIENT", "ZERO_WEIGHT", "TOO_LONG", "BAD_TLAST", "WATCHDOG")
+    ("FEW_POINTS", "RANK_DEFICIENT", "ZERO_WEIGHT", "TOO_LONG", "BAD_TLAST", "WATCHDOG", "UPSET")
 )
 
 

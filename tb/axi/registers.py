@@ -48,7 +48,7 @@ class Core:
 CORES = {
     "oltae": Core(
         Oltae,
-        Oltae.BUILD.encode(WEIGHTED=FULL, COVARIANCE=FULL, REAPPLY=FULL, MANTISSA=35),
+        Oltae.BUILD.encode(WEIGHTED=FULL, COVARIANCE=FULL, REAPPLY=FULL, VERIFY=1, MANTISSA=35),
         {
             "points": (16, "POINTS"),
             "weight": (32, "WEIGHT"),
@@ -63,7 +63,7 @@ CORES = {
     ),
     "ivisnav": Core(
         Ivisnav,
-        Ivisnav.BUILD.encode(MANTISSA=24),
+        Ivisnav.BUILD.encode(VERIFY=1, MANTISSA=24),
         {
             "rows": (16, "ROWS"),
             "weight": (32, "WEIGHT"),

@@ -21,6 +21,7 @@ from cocotbext.axi import AxiStreamBus, AxiStreamFrame, AxiStreamSource
 from relnav.driver import CoreDriver, Feed
 from relnav.rtlsim.bus import RegisterBus
 
+from coverage import points
 from tb.common import axil, clocks
 
 T = TypeVar("T")
@@ -69,6 +70,7 @@ class CoreBench:
         self.registers: Any = self.DRIVER.MAP
         self.last = self.EMPTY  # what the registers show
         self.rises: dict[str, int] = {}
+        self.raised: set[str] = set()  # in FLAGS, when last looked at
 
     # ------------------------------------------------------------------ of each core
 
@@ -181,6 +183,9 @@ class CoreBench:
             return {name for name, field in fields.items() if word & field.mask}
 
         sticky, frame = await self.drive(lambda d: (d.flags(), d.read(self.registers.FRAME_FLAGS)))
+        points.flag(self.dut._name, names(sticky))
+        points.flag(self.dut._name, self.raised - names(sticky), "cleared")
+        self.raised = names(sticky)
         return names(sticky), names(frame)
 
     async def reached(self, beats: int) -> int:

@@ -12,7 +12,7 @@ from cocotb.triggers import FallingEdge, RisingEdge
 from tb.common import axil, clocks
 from tb.common.core_bench import CoreBench
 
-LOADING, COMPUTE, DONE = 1, 2, 3
+LOADING, COMPUTE, DONE, VERIFY = 1, 2, 3, 4
 
 
 # ------------------------------------------------------------------------------------------------ states
@@ -51,12 +51,12 @@ async def states_acknowledge_and_interrupt(bench: CoreBench) -> None:
     assert dut.irq.value == 0
     await bench.solve(bench.good())  # straight from DONE
     watcher.cancel()
-    round_trip = [LOADING, COMPUTE, DONE]
+    round_trip = [LOADING, COMPUTE, *([VERIFY] if await verifies(bench) else []), DONE]
     assert order == [0, *round_trip, 0, *round_trip, *round_trip]
 
 
 async def soft_reset_in_every_state(bench: CoreBench, step: int) -> None:
-    """In IDLE, after every beat, every `step` clocks of COMPUTE, in DONE: the next frame is right."""
+    """In IDLE, after every beat, every `step` clocks of COMPUTE, now and then in VERIFY, in DONE."""
     dut, kinds = bench.dut, bench.KINDS
     caught: set[int] = set()
 
@@ -100,7 +100,7 @@ async def soft_reset_in_every_state(bench: CoreBench, step: int) -> None:
         elif rest < bench.LEAST * per_row:
             assert (await bench.flags())[0] == {bench.FEW}
         else:
-            while bench.state() == COMPUTE:
+            while bench.state() in (COMPUTE, VERIFY):
                 await clocks.tick(dut)
             expected = bench.expected(bench.tail(frame, rest // per_row))
             if not expected.failed:
@@ -109,8 +109,11 @@ async def soft_reset_in_every_state(bench: CoreBench, step: int) -> None:
                 bench.last = got
         await bench.solve(bench.good())
 
-    # COMPUTE, to a few clocks past its end
-    for number, delay in enumerate(range(0, (bench.last.cycles_all or 0) + 2 * step, step)):
+    # COMPUTE, to a few clocks past its end, and VERIFY
+    pass_ends = (bench.last.cycles_all or 0) + 2 * step
+    again = await verifies(bench)
+    delays = (*range(0, pass_ends, step), *(range(pass_ends, 2 * pass_ends, 5 * step) if again else ()))
+    for number, delay in enumerate(delays):
         frame = bench.good(bench.LEAST, **kinds[number % len(kinds)])
         await bench.drive(lambda d, f=frame: bench.prepare(d, f).feed(bench.beats(f)))
         while bench.state() != COMPUTE:
@@ -120,7 +123,13 @@ async def soft_reset_in_every_state(bench: CoreBench, step: int) -> None:
         if number % 4 == 0:
             await whole_groups(bench, bench.expected(frame))
         await bench.solve(bench.good(bench.LEAST, **kinds[number // 2 % len(kinds)]))
-    assert caught == {0, LOADING, COMPUTE, DONE}
+    assert caught == {0, LOADING, COMPUTE, DONE, *([VERIFY] if again else [])}
+
+
+async def verifies(bench: CoreBench) -> bool:
+    """This build has the second pass."""
+    build = bench.registers.BUILD
+    return bool(build.VERIFY.get(await bench.drive(lambda d: d.read(build))))
 
 
 def push(driver: Any, beats: Sequence[int]) -> None:
@@ -240,7 +249,7 @@ async def broken_frames(bench: CoreBench) -> None:
     bench.bus.source.pause = True
     ticket = await fed(bench.beats(bench.good(max(bench.LEAST, 6))))
     await bench.reached(bench.BEATS)
-    dut.loader.count.value = 65533
+    dut.loader.count.value = 65532
     bench.bus.source.pause = False
     await fails(ticket, "TOO_LONG")
 

@@ -14,7 +14,7 @@ from relnav.ivisnav.raw import FAILURES, RESULT_WORDS, RawRates
 from relnav.model.rates_core import RatesCore
 
 from tb.common.core_bench import CoreBench
-from tb.ivisnav.frames import random_rows
+from tb.ivisnav.frames import observe, random_rows
 
 
 class Bench(CoreBench):
@@ -64,6 +64,7 @@ class Bench(CoreBench):
         )
         if "ILL_CONDITIONED" in found.flag_names:
             assert found.condition_word == expected.condition_word, tell(frame, variance)
+        observe(frame, variance, feed, found)
         return found
 
 

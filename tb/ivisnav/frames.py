@@ -8,8 +8,11 @@ import random
 import numpy as np
 from numpy.typing import NDArray
 from relnav.ivisnav.quantise import QuantisedRows
+from relnav.ivisnav.raw import RawRates
+from relnav.model.raw import variance_word
 from relnav.quantise import INPUT_MAX, INPUT_MIN
 
+from coverage import points
 from tb.common.weights import random_weights
 
 Integers = NDArray[np.int64]
@@ -24,6 +27,21 @@ def random_rows(rng: random.Random, n: int | None = None, kind: str | None = Non
     h, y = KINDS[kind or rng.choice(list(KINDS))](rng, numpy, n)
     fracs = [rng.choice(FRACS) if rng.random() < 0.5 else rng.randint(-64, 95) for _ in "hy"]
     return QuantisedRows(h, y, random_weights(rng, n), *fracs)
+
+
+def observe(frame: QuantisedRows, variance: float, feed: str, result: RawRates) -> None:
+    """Count a frame whose result was right (coverage/points.py)."""
+    points.frame(
+        "ivisnav_top",
+        n=frame.n,
+        weights=frame.w.tolist(),
+        feed=feed,
+        fracs=[frame.frac_h, frame.frac_y],
+        variance=variance_word(variance, frame.weight_scale),
+        flags=result.flag_names,
+        words=result.words,
+        condition=result.condition_word or None,
+    )
 
 
 def _fit(values: NDArray[np.float64]) -> Integers:

@@ -15,7 +15,7 @@ from relnav.quantise import QuantisedFrame
 from relnav.result import FAILURES
 
 from tb.common.core_bench import CoreBench
-from tb.oltae.frames import random_frame
+from tb.oltae.frames import observe, random_frame
 
 FULL = os.environ.get("FULL", "1") == "1"
 PLAIN = CoreConfig(covariance=FULL)
@@ -71,6 +71,7 @@ class Bench(CoreBench):
             self.model.run(frame, config),
             tell(frame, config),
         )
+        observe(frame, config, feed, found)
         return found
 
 

@@ -7,9 +7,10 @@ import random
 
 import numpy as np
 from numpy.typing import NDArray
-from relnav.model.raw import CoreConfig
+from relnav.model.raw import CoreConfig, RawResult
 from relnav.quantise import INPUT_MAX, INPUT_MIN, QuantisedFrame
 
+from coverage import points
 from tb.common.weights import random_weights
 
 Integers = NDArray[np.int64]
@@ -34,6 +35,22 @@ def random_config(rng: random.Random, full: bool = True) -> CoreConfig:
     variance = rng.choice([0.0, 0.0, 1.0, 1e-12, 3e20])
     reapply, covariance = full and rng.random() < 0.4, full and rng.random() < 0.8
     return CoreConfig(rng.random() < 0.25, reapply, covariance, variance)
+
+
+def observe(frame: QuantisedFrame, config: CoreConfig, feed: str, result: RawResult) -> None:
+    """Count a frame whose result was right (coverage/points.py)."""
+    points.frame(
+        "oltae_top",
+        n=frame.n,
+        weights=None if frame.w is None else frame.w.tolist(),
+        feed=feed,
+        fracs=[frame.frac],
+        variance=config.variance_word(frame.weight_scale),
+        flags=result.flag_names,
+        words=None if result.failed else result.result_words(),
+        turn=result.turn,
+        config=(config.forbid_turns, config.reapply, config.covariance),
+    )
 
 
 def rotation(rng: np.random.Generator, degrees: float) -> NDArray[np.float64]:

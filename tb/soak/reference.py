@@ -15,8 +15,8 @@ from dataclasses import dataclass, field
 
 from tb.soak.cores import BUSY_WRITE, Core, Settings, Solved
 
-IDLE, LOADING, COMPUTE, DONE = range(4)
-STATES = ("IDLE", "loading", "COMPUTE", "DONE")
+IDLE, LOADING, COMPUTE, DONE, VERIFY = range(5)
+STATES = ("IDLE", "loading", "COMPUTE", "DONE", "VERIFY")
 SLVERR = 2
 RESULTS = 0x100
 SWALLOW = 2  # of the loader, whose other states are IDLE and LOADING
@@ -166,10 +166,14 @@ class Reference:
         self.latency: tuple[int, ...] = ()
         self.count_now = 0
         self.ill_seen = False
+        self.again: list[int] = []
+        """In VERIFY: the clocks in which the groups come once more, and the one that completes the frame."""
 
     @property
     def next_commit(self) -> int | None:
         """Clock in which the program gives its next group, of a frame that gets so far."""
+        if self.state == VERIFY:
+            return self.again[0]
         if self.state != COMPUTE or self.solved is None:
             return None
         group = sum(1 for bit in self.ready_bits if self.ready & bit)
@@ -178,7 +182,7 @@ class Reference:
     # ------------------------------------------------------------------ registers
 
     def status(self, push_waits: bool, push_open: bool) -> int:
-        busy = 16 if self.state in (LOADING, COMPUTE) else 0
+        busy = 16 if self.state in (LOADING, COMPUTE, VERIFY) else 0
         push = 256 if push_open and not push_waits else 0
         return self.state | busy | self.ready | push | self.frame << 16
 
@@ -239,7 +243,7 @@ class Reference:
         core, bits = self.core, self.bits
         # ---- loader, combinational
         state, loader, soft = self.state, self.loader, self.soft_reset
-        busy = state in (LOADING, COMPUTE)
+        busy = state in (LOADING, COMPUTE, VERIFY)
         from_push, push_before, weighted_before = self.from_push, self.push_valid, bool(self.config & 1)
         source_valid = push_before if from_push else bool(seen & TVALID)
         first = not self.row
@@ -292,9 +296,12 @@ class Reference:
         frame_end = dropped = False
         if ready and source_valid:
             raised, frame_end, dropped = self._beat(seen, tdata, full, weight_beat)
-        refused, commits, completed = False, 0, False
+        refused, commits, solved, completed = False, 0, False, False
         if state == COMPUTE:
-            more, refused, commits, completed = self._program(now, seen)
+            more, refused, commits, solved = self._program(now, seen)
+            raised |= more
+        elif state == VERIFY:
+            more, completed = self._second_pass(now, seen)
             raised |= more
         elif seen & (RANK | ILL):
             raise Mismatch(f"clock {now}: a refusal outside COMPUTE")
@@ -334,6 +341,11 @@ class Reference:
             self._solve(now)
         elif dropped or refused:
             self.state = IDLE
+        elif solved:
+            self.state, self.ill_seen = VERIFY, False
+            repeat = now + self.core.again(self.weighted) + self.behind
+            latency = self.core.latency(self.weighted, self.config)
+            self.again = [*(repeat + clocks for clocks in latency), repeat + latency[-1] + 1]
         elif completed:
             self.state = DONE
         elif clear:
@@ -467,7 +479,7 @@ class Reference:
         self.totals.frames += 1
 
     def _program(self, now: int, seen: int) -> tuple[int, bool, int, bool]:
-        """A clock of COMPUTE. Returns (flags raised, refused, bits of STATUS that rise, frame complete)."""
+        """A clock of COMPUTE. Returns (flags raised, refused, bits of STATUS that rise, first pass over)."""
         core, bits, solved, clocks = self.core, self.bits, self.solved, now - self.begun
         assert solved is not None
         raised, refused = 0, False
@@ -502,9 +514,32 @@ class Reference:
                 raise Mismatch(f"clock {now}: ILL_CONDITIONED is missing")
         if group == 1 and "Q_SATURATED" in solved.flags:
             raised |= bits["Q_SATURATED"]
-        completed = group == len(core.groups) - 1
-        self.totals.solved += completed
-        return raised, False, self.ready_bits[group], completed
+        ended = group == len(core.groups) - 1
+        self.totals.solved += ended
+        return raised, False, self.ready_bits[group], ended
+
+    def _second_pass(self, now: int, seen: int) -> tuple[int, bool]:
+        """A clock of VERIFY: flags that stand beside results rise once more.
+
+        Returns (flags raised, frame complete).
+        """
+        bits, solved = self.bits, self.solved
+        assert solved is not None
+        raised = 0
+        if seen & (RANK | ILL):
+            if seen & RANK or "ILL_CONDITIONED" not in solved.flags or self.ill_seen:
+                raise Mismatch(f"clock {now}: a refusal in VERIFY; model: {solved.flags}")
+            self.ill_seen = True
+            raised |= bits["ILL_CONDITIONED"]
+        if now != self.again[0]:
+            return raised, False
+        passed = len(self.core.groups) + 1 - len(self.again)
+        if passed == 0 and self.ill_seen != ("ILL_CONDITIONED" in solved.flags):
+            raise Mismatch(f"clock {now}: ILL_CONDITIONED is missing in VERIFY")
+        if passed == 1 and "Q_SATURATED" in solved.flags:
+            raised |= bits["Q_SATURATED"]
+        self.again.pop(0)
+        return raised, not self.again
 
 
 def _difference(seen: int, expected: int) -> str:

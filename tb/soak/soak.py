@@ -27,6 +27,7 @@ from pathlib import Path
 import numpy as np
 import numpy.typing as npt
 
+from coverage import points
 from sim.runner import (
     ROOT,
     RTL,
@@ -38,7 +39,8 @@ from sim.runner import (
 )
 from tb.common.vectors import read_hex_rows
 from tb.soak.cores import CORES, Core
-from tb.soak.reference import COMPUTE, DONE, EPISODE, QUIET, STATE, Mismatch, Reference, Totals
+from tb.soak.observed import Observed
+from tb.soak.reference import COMPUTE, EPISODE, QUIET, STATE, VERIFY, Mismatch, Reference, Totals
 from tb.soak.stimulus import FIRST, episode_of
 
 HERE = Path(__file__).parent
@@ -102,7 +104,7 @@ def play(
 
 def compare(core: Core, trace: Trace, totals: Totals, behind: int) -> str | None:
     """One episode's lines against the model; returns what is wrong."""
-    reference = Reference(core, totals, behind)
+    reference = (Observed if points.active() else Reference)(core, totals, behind)
     lines = trace.tolist()
     try:
         for number, (now, *ports) in enumerate(lines):
@@ -132,9 +134,9 @@ def behind_of(core: Core, trace: Trace) -> int | None:
     """What `core.latency` leaves open, from the frame of the first episode; None where it has no result."""
     states = (trace["bits"] >> STATE & 7).astype(int)
     cycles = trace["cycle"].astype(int)
-    if not (np.any(states == COMPUTE) and np.any(states == DONE)):
+    if not (np.any(states == COMPUTE) and np.any(states == VERIFY)):
         return None
-    behind = int(cycles[states == DONE][0] - cycles[states == COMPUTE][0]) - core.latency(False, 8)[-1]
+    behind = int(cycles[states == VERIFY][0] - cycles[states == COMPUTE][0]) - core.latency(False, 8)[-1]
     return behind if behind in core.behind else None
 
 

@@ -40,12 +40,16 @@ class FakeCore:
             if self.left == 0:
                 self.solve(self)
             self.left -= 1
-            busy = int(self.state) in (1, 2)
-            word: int = self.map.STATUS.encode(
-                STATE=self.state, BUSY=busy, FRAME=self.frame, PUSH_READY=self.push_ready
+            done = self.state.name == "DONE"
+            word = self.map.STATUS.encode(
+                STATE=self.state,
+                BUSY=not done and self.state.name != "IDLE",
+                ALL_READY=done,
+                FRAME=self.frame,
+                PUSH_READY=self.push_ready,
             )
-            return word
-        return self.words.get(address, 0)
+            return int(word)
+        return int(self.words.get(address, 0) or 0)
 
     def write(self, address: int, value: int) -> None:
         self.written.append((address, value))

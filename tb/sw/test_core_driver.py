@@ -11,7 +11,7 @@ import numpy as np
 import pytest
 from relnav import driver as oltae
 from relnav.driver import CoreDriver, OltaeDriver
-from relnav.errors import BackendError, InputError
+from relnav.errors import BackendError, InputError, UpsetError
 from relnav.ivisnav import driver as ivisnav
 from relnav.ivisnav.driver import IvisnavDriver
 from relnav.ivisnav.quantise import QuantisedRows
@@ -120,7 +120,7 @@ def test_too_long_is_waited_out(kind: Kind) -> None:
     core.solve = swallow
     driver: Any = kind.driver(core)
     assert driver.solve(kind.frame).flag_names == ("TOO_LONG",)
-    assert looks == 5
+    assert looks == 6  # the last one confirms
 
 
 def test_a_core_that_hangs_is_given_up(kind: Kind) -> None:
@@ -162,3 +162,160 @@ def test_controls(kind: Kind) -> None:
     control, irq, status = (r.ADDRESS for r in (kind.map.CONTROL, kind.map.IRQ_ENABLE, kind.map.IRQ_STATUS))
     assert core.written == [(control, 2), (control, 1), (irq, 1), (status, 2), (kind.map.FLAGS.ADDRESS, 16)]
     assert driver.status().state == kind.map.State.DONE and driver.status().frame == 65535
+
+
+# ------------------------------------------------------------------------------------------------- upsets
+
+
+class Flipping(FakeCore):
+    """A core of which the readings with these numbers come back with a bit flipped."""
+
+    def __init__(self, registers: Any, flips: frozenset[int] = frozenset()) -> None:
+        super().__init__(registers)
+        self.flips, self.readings = flips, 0
+        self.bit = 3
+
+    def read(self, address: int) -> int:
+        self.readings += 1
+        return super().read(address) ^ (1 << self.bit if self.readings in self.flips else 0)
+
+
+def solves(core: FakeCore) -> None:
+    core.words |= {0x100 + 4 * index: 1000 + index for index in range((core.map.SIZE - 0x100) // 4)}
+    core.solved()
+
+
+def refuses(core: FakeCore) -> None:
+    core.words[core.map.CONDITION.ADDRESS] = 4711
+    core.failed(core.map.FLAGS.encode(RANK_DEFICIENT=1, ILL_CONDITIONED=1))
+
+
+@pytest.mark.parametrize("bit", [3, 5, 20])
+@pytest.mark.parametrize("solve", [solves, refuses])
+def test_one_upset_reading_is_not_believed(kind: Kind, solve: Callable[[FakeCore], None], bit: int) -> None:
+    """Whichever reading of a frame comes back wrong, the frame's result is the right one or an error."""
+
+    def run(flips: frozenset[int]) -> tuple[Any, int]:
+        core = Flipping(kind.map, flips)
+        core.bit, core.lag, core.solve = bit, 3, solve
+        core.words |= {0x100 + 4 * index: 7 for index in range((core.map.SIZE - 0x100) // 4)}  # of before
+        driver: Any = kind.driver(core)
+        return driver.solve(kind.frame), core.readings
+
+    expected, readings = run(frozenset())
+    assert expected.failed == (solve is refuses) and readings > (80 if solve is solves else 20)
+    refused = 0
+    for number in range(1, readings + 1):
+        try:
+            assert run(frozenset((number,)))[0] == expected, number
+        except BackendError:
+            refused += 1
+    assert refused <= 6
+
+
+def test_readings_that_never_agree(kind: Kind) -> None:
+    core = Flipping(kind.map)
+    driver = kind.driver(core)
+    address = kind.map.FRAC.ADDRESS
+
+    def reading() -> int:
+        core.words[address] = core.words.get(address, 0) + 1
+        return driver.read(kind.map.FRAC)
+
+    with pytest.raises(UpsetError, match="4 readings of the same registers differ"):
+        driver.read_twice(reading)
+    assert core.readings == 4
+
+
+def test_a_configuration_that_does_not_stay(kind: Kind) -> None:
+    core = FakeCore(kind.map)
+    core.kept[kind.map.VARIANCE.ADDRESS] = 0xFFFFFFFE
+    driver: Any = kind.driver(core)
+    driver.write_checked(kind.map.VARIANCE, 0x10)
+    with pytest.raises(UpsetError, match="VARIANCE reads 0x00000010 after 0x00000011 was written"):
+        driver.write_checked(kind.map.VARIANCE, 0x11)
+
+
+@pytest.mark.parametrize("solved", [True, False], ids=["solved", "given up"])
+def test_an_upset_is_an_error_and_can_be_recovered_from(kind: Kind, solved: bool) -> None:
+    """UPSET, in a frame that was given up or beside a result: no numbers; then a reset, and all is new."""
+    core = FakeCore(kind.map)
+    driver: Any = kind.driver(core)
+    flag = kind.flag("UPSET")
+    core.solve = lambda c: c.solved(flag) if solved else c.failed(flag)
+    with pytest.raises(UpsetError, match=rf"{kind.driver.NAME} core was upset \(FLAGS: UPSET\): give the"):
+        driver.solve(kind.frame)
+    core.written.clear()
+    core.words[kind.map.IRQ_STATUS.ADDRESS] = 3
+    core.solve = FakeCore.solved
+    driver.recover()
+    assert core.written[0] == (kind.map.CONTROL.ADDRESS, 1) and driver.flags() == 0
+    assert (kind.map.IRQ_STATUS.ADDRESS, 3) in core.written
+    written = len(core.written)
+    assert not driver.solve(kind.frame).failed
+    assert {kind.map.FRAC.ADDRESS, kind.map.VARIANCE.ADDRESS} <= {a for a, _ in core.written[written:]}
+
+
+@pytest.mark.parametrize("register", ["FLAGS", "FRAME_FLAGS"])
+def test_an_upset_in_either_register(kind: Kind, register: str) -> None:
+    """FLAGS may rise after the frame; FRAME_FLAGS stand where somebody else has cleared FLAGS."""
+    core = FakeCore(kind.map)
+
+    def solve(c: FakeCore) -> None:
+        c.solved()
+        c.words[getattr(c.map, register).ADDRESS] = kind.flag("UPSET")
+
+    core.solve = solve
+    driver: Any = kind.driver(core)
+    with pytest.raises(UpsetError, match="FLAGS: UPSET"):
+        driver.solve(kind.frame)
+
+
+def test_a_flag_that_belies_the_result(kind: Kind) -> None:
+    """FLAGS rise between the results and the look at them."""
+    core = FakeCore(kind.map)
+    core.solve = lambda c: c.solved(kind.flag("WATCHDOG"))
+    driver: Any = kind.driver(core)
+    with pytest.raises(UpsetError, match="FLAGS: WATCHDOG"):
+        driver.solve(kind.frame)
+
+
+@pytest.mark.parametrize("missing", ["STATE", "ALL_READY", "FRAME"])
+def test_done_is_told_by_all_of_status(kind: Kind, missing: str) -> None:
+    """A count that moved, a state or a ready bit alone do not make a frame."""
+    core = FakeCore(kind.map)
+    read, field = core.read, kind.map.STATUS.FIELDS[missing]
+    value = {"STATE": int(kind.map.State.VERIFY), "ALL_READY": 0, "FRAME": 65535}[missing]
+
+    def one_field_behind(address: int) -> int:
+        word = read(address)
+        return word & ~field.mask | field.put(value) if address == kind.map.STATUS.ADDRESS else word
+
+    core.read = one_field_behind  # type: ignore[method-assign]
+    driver: Any = kind.driver(core)
+    with pytest.raises(BackendError, match="no result after 20 looks"):
+        driver.solve(kind.frame, polls=20)
+    assert core.frames == [kind.beats]
+
+
+def test_an_upset_of_results_that_stood(kind: Kind) -> None:
+    """The count has moved and the core has fallen back to IDLE: an error, not a frame that never ends."""
+    core = FakeCore(kind.map)
+
+    def fall_back(c: FakeCore) -> None:
+        c.solved()
+        c.failed(kind.flag("UPSET"))
+
+    core.solve = fall_back
+    driver: Any = kind.driver(core)
+    with pytest.raises(UpsetError, match="FLAGS: UPSET"):
+        driver.solve(kind.frame, polls=20)
+
+
+def test_the_interrupt_is_the_frames_own(kind: Kind) -> None:
+    core = FakeCore(kind.map)
+    core.words[kind.map.IRQ_STATUS.ADDRESS] = 3
+    driver: Any = kind.driver(core)
+    driver.solve(kind.frame)
+    status = kind.map.IRQ_STATUS.ADDRESS
+    assert core.written.index((status, 3)) < len(core.written) and core.frames == [kind.beats]

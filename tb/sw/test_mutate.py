@@ -9,9 +9,11 @@ from pathlib import Path
 
 import pytest
 
-from mutate import netlist
-from mutate.__main__ import spread
+from mutate import netlist, report
+from mutate.__main__ import LEAST, MOST, UNKNOWN, sample
 from mutate.benches import TB, core_tests, first_tests, modules
+from mutate.campaign import PROVED, Fate, Result, bench_files, fingerprint
+from mutate.trial import _Reader
 from sim.runner import missing
 from sim.sources import ROOT, RTL, reachable, sources
 
@@ -33,7 +35,8 @@ def test_every_module_has_tests() -> None:
     for name in modules():
         assert all(folder.is_dir() for folder in first_tests(name)), name
         assert core_tests(name), name
-    assert first_tests("mux4")[0] == TB / "arith" / "aligner"
+    assert first_tests("mux4") == [TB / "arith" / "mux4"]
+    assert first_tests("leading_zeros_24")[0] == TB / "arith" / "float_multiply"
 
 
 def test_probe_lines() -> None:
@@ -71,18 +74,98 @@ def test_three_mutants_die(tmp_path: Path) -> None:
     code = f"""
 from pathlib import Path
 from mutate import campaign
-from mutate.__main__ import table
+from mutate.report import row, table
 campaign.BUILD = Path({str(tmp_path)!r})
 result = campaign.run_module("fixed_output", 3, deep=False)
 print(result.error, result.fates)
-print(table([result]))
+print(table([row(result)]))
 """
     done = subprocess.run(
         [sys.executable, "-c", code], cwd=ROOT, capture_output=True, text=True, timeout=300, check=False
     )
-    assert "| fixed_output | 3 | 0 | 0 | 3 | 0 | 0 | 100.0 |" in done.stdout, done.stdout + done.stderr
+    assert "| fixed_output | 3 | 3 | 0 | 0 | 0 | 0 | 0 | 100.0 |" in done.stdout, done.stdout + done.stderr
 
 
-def test_spread() -> None:
-    counts = spread(modules(), 240)
-    assert min(counts.values()) == 2 and 200 < sum(counts.values()) < 320
+def test_sample() -> None:
+    """Each module's mutants get the same time, within bounds; what is left of a tight budget is the least."""
+    rows: list[report.Row] = [
+        {"module": "mux4", "seconds_before": 5.0, "seconds_each": 0.5},
+        {"module": "gram_array", "seconds_before": 50.0, "seconds_each": 10.0},
+    ]
+    names = ["mux4", "gram_array"]
+    assert sample(names, rows, 1.0) == {"mux4": LEAST, "gram_array": LEAST}
+    assert sample(names, rows, 10_000.0) == {"mux4": MOST, "gram_array": MOST}
+    counts = sample(names, rows, 120.0)
+    assert LEAST < counts["gram_array"] < counts["mux4"]
+    assert sum(row["seconds_before"] + counts[row["module"]] * row["seconds_each"] for row in rows) <= 120
+    assert sample(["fixed_output"], rows, UNKNOWN[0] + 10 * UNKNOWN[1])["fixed_output"] == 10
+
+
+def test_a_small_sample_is_the_beginning_of_a_larger_one(tmp_path: Path) -> None:
+    few, more = (
+        [one.key for one in netlist.make("mux4", [VALUES, (("WIDTH", "7"),)], n, 1, tmp_path)[1]]
+        for n in (5, 25)
+    )
+    assert few == more[:5]
+
+
+def test_bench_files() -> None:
+    """A bench is made of its folder and of what it imports from tb/, through other files too."""
+    found = {str(file.relative_to(TB)) for file in bench_files(TB / "arith" / "float_add")}
+    assert {"arith/float_add/test_float_add.py", "arith/floats.py", "common/replay/replay.v"} <= found
+    assert "common/vectors.py" in found and not any(name.startswith("gram/") for name in found)
+
+
+def test_reader_takes_over_after_the_first_wrong_line(tmp_path: Path) -> None:
+    right, written = tmp_path / "right", tmp_path / "written"
+    right.write_text("1\n2\n3\n4\n")
+    written.write_text("1\n9\n3")
+    reader = _Reader(written, right)
+    reader.start()
+    reader.join(10)
+    assert reader.ended
+    reader.complete()
+    assert written.read_text() == "1\n9\n3\n4\n"
+    written.write_text("1\n2\n")
+    reader = _Reader(written, right)
+    reader.start()
+    reader.stop.wait(0.3)
+    reader.stop.set()
+    reader.join(10)
+    assert not reader.ended
+
+
+def test_report(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    """A larger sample of the same text stays; a worse one or one of another text replaces it."""
+    monkeypatch.setattr(report, "RESULTS", tmp_path / "results.json")
+    monkeypatch.setattr(report, "TABLE", tmp_path / "results.md")
+    by = "test_aligner.py::test_aligner_floors[icarus]"
+
+    def result(killed: int, survived: int, source: str = fingerprint("mux4")) -> Result:
+        one = Result("mux4", source)
+        one.fates += [Fate(k, f"inv a{k}", "", "", "killed", by, seconds=1.0) for k in range(killed)]
+        one.fates += [
+            Fate(90, "inv b", "", "", "timeout", "test_oltae_top.py::test_ports[verilator]", seconds=1.0)
+        ]
+        one.fates += [
+            Fate(91, "inv c", "", "", "equivalent", reason="never"),
+            Fate(92, "inv d", "", "", "equivalent"),
+        ]
+        one.fates[-1].reason = PROVED
+        one.fates += [Fate(99, "const0 e", "wire[1]", "", "survived", seconds=2.0)] * survived
+        return one
+
+    report.save([result(19, 1)])
+    (row,) = report.load()
+    assert (row["mutants"], row["killed"], row["by_time"], row["by_cores"]) == (23, 20, 1, 1)
+    assert (row["equivalent"], row["proved"], row["survivors"], row["percent"]) == (2, 1, 1, 95.24)
+    assert row["current"] and not report.below(result(19, 1)) and report.below(result(17, 1))
+    assert "mux4: `const0 e` wire[1]" in report.TABLE.read_text()
+    assert "mux4: `inv c`: never" in report.TABLE.read_text()
+    report.save([result(5, 0)])
+    assert report.load()[0]["mutants"] == 23
+    report.save([result(5, 1)])
+    assert report.load()[0]["percent"] == 85.71
+    report.RESULTS.unlink()
+    report.save([result(3, 0, "another")])
+    assert not report.load()[0]["current"] and "earlier text" in report.TABLE.read_text()

@@ -60,8 +60,8 @@ class IvisnavDriver(CoreDriver[Status]):
         word = variance_word(variance, weight_scale)
         points = Ivisnav.FRAC.encode(FRAC_H=frac_h, FRAC_Y=frac_y)
         self.check_unlocked()
-        self.write(Ivisnav.FRAC, points)
-        self.write(Ivisnav.VARIANCE, word)
+        self.write_checked(Ivisnav.FRAC, points)
+        self.write_checked(Ivisnav.VARIANCE, word)
 
     def result(self) -> RawRates:
         """The registers of the frame that was solved last, with its flags and cycles."""
@@ -81,12 +81,15 @@ class IvisnavDriver(CoreDriver[Status]):
         """Configure, feed, wait, read. variance: of y at the user's unit weight; 0: from the residuals.
 
         A frame that failed has its flags and no numbers, but the condition where that is the reason.
+        Raises UpsetError for numbers that are not to be believed: `recover`, and give the frame again.
         """
         self.configure(
             frac_h=rows.frac_h, frac_y=rows.frac_y, variance=variance, weight_scale=rows.weight_scale
         )
-        if self.wait(self.feed(beats_of(rows), feed), polls):
-            return self.result()
-        flags = self.read(Ivisnav.FRAME_FLAGS)
+        result = self.finish(self.feed(beats_of(rows), feed), polls, self.result)
+        if result is not None:
+            return result
+        flags = self.read_twice(self.frame_flags)
         told = Ivisnav.FLAGS.ILL_CONDITIONED.get(flags)
-        return RawRates(flags=flags, condition_word=self.read(Ivisnav.CONDITION) if told else 0)
+        condition = self.read_twice(lambda: self.read(Ivisnav.CONDITION)) if told else 0
+        return RawRates(flags=flags, condition_word=condition)

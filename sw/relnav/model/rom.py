@@ -204,27 +204,47 @@ def scheduled() -> Program:
     return Program(dots, step, call, call_cycle, return_cycle, redrain, basic)
 
 
-def verilog() -> str:
-    """Text of solve_program.v."""
+@dataclass(frozen=True)
+class Layout:
+    """The program in its ROM."""
+
+    words: dict[int, tuple[int, str, str]]
+    """Address -> word, the parameter without which it is 0 ("" for none), note."""
+    call: int
+    target: int
+    leave: int
+    """Of the re-application: addresses as in solve_program.v."""
+    redrain: int
+    finished: int
+
+
+def layout() -> Layout:
+    """Where everything stands."""
     program = scheduled()
     main = addresses(program.dots, 0, 0)
     target = main[-1] + len(program.dots[-1].terms) + 2
     step = addresses(program.newton, program.call_cycle, target)
     leave = step[-1] + len(program.newton[-1].terms) + program.return_cycle - (program.newton[-1].end + 1)
-    lines = {}
+    assert leave < (1 << ADDRESS) - 1
+    words = {}
     placed = zip([*program.dots, *program.newton], [*main, *step], strict=True)
     for number, (dot, start) in enumerate(placed):
+        needs = "REAPPLY" if number >= len(program.dots) else "COVARIANCE" if number >= program.basic else ""
         for slot, word in enumerate(slot_words(dot)):
-            note = f"{dot.name} {slot + 1}/{len(dot.terms)}"
-            value = f"{WIDTH}'h{word:x}"
-            if number >= len(program.dots):
-                value = f"REAPPLY != 0 ? {value} : {WIDTH}'d0"
-            elif number >= program.basic:
-                value = f"COVARIANCE != 0 ? {value} : {WIDTH}'d0"
-            lines[start + slot] = f"      {ADDRESS}'d{start + slot}: word <= {value};  // {note}"
-    end = target - 3
-    assert leave < (1 << ADDRESS) - 1
-    body = "\n".join(lines[key] for key in sorted(lines))
+            words[start + slot] = word, needs, f"{dot.name} {slot + 1}/{len(dot.terms)}"
+    return Layout(words, program.call_cycle, target, leave, program.redrain, target - 2)
+
+
+def verilog() -> str:
+    """Text of solve_program.v."""
+    rom = layout()
+    lines = []
+    for address, (word, needs, note) in sorted(rom.words.items()):
+        value = f"{WIDTH}'h{word:x}"
+        if needs:
+            value = f"{needs} != 0 ? {value} : {WIDTH}'d0"
+        lines.append(f"      {ADDRESS}'d{address}: word <= {value};  // {note}")
+    body = "\n".join(lines)
     return f"""// SPDX-License-Identifier: Apache-2.0
 // Microprogram of the solve engine. Written by `python -m relnav.model.rom` from sw/relnav/model/pose_program.py and
 // statistics_program.py: do not edit.
@@ -255,12 +275,12 @@ module solve_program #(
 {body}
       default: word <= {WIDTH}'d0;
     endcase
-  localparam [{ADDRESS - 1}:0] CALL = {program.call_cycle}, TARGET = {target}, LEAVE = {leave};
+  localparam [{ADDRESS - 1}:0] CALL = {rom.call}, TARGET = {rom.target}, LEAVE = {rom.leave};
   wire calling = REAPPLY != 0 && reapply && counter == CALL;
   assign leaving = REAPPLY != 0 && counter == LEAVE;
   assign following = calling ? TARGET : leaving ? CALL : counter;
-  assign redrain = run & address == {ADDRESS}'d{program.redrain};
-  assign finished = address == {ADDRESS}'d{end + 1};
+  assign redrain = run & address == {ADDRESS}'d{rom.redrain};
+  assign finished = address == {ADDRESS}'d{rom.finished};
 {assigns(FIELDS, "word")}
 endmodule
 `resetall

@@ -17,7 +17,7 @@ BEFORE, AFTER = 16, 14  # clock cycles drawn before the last beat and after the 
 LONGEST = 260
 
 READY = ("q_ready", "pose_ready", "all_ready")
-STATE_NAMES = {0: "IDLE", 1: "LOAD", 2: "COMPUTE", 3: "DONE"}
+STATE_NAMES = {0: "IDLE", 1: "LOAD", 2: "COMPUTE", 3: "DONE", 4: "VERIFY"}
 
 # label, colour, names looked for (the first that exists, nearest to the top); state is drawn by name
 ROWS: tuple[tuple[str, str, tuple[str, ...]], ...] = (

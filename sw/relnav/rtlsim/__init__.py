@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: Apache-2.0
 """Frames through the real RTL: builds a core's top under a simulator and runs the driver on it.
 
-It needs the checkout that this package lies in (sim/, rtl/), cocotb and a simulator.
+It needs cocotb, a simulator, and the RTL: of the checkout that this package lies in, or of its wheel.
 """
 
 from __future__ import annotations
@@ -20,6 +20,7 @@ from dataclasses import asdict
 from pathlib import Path
 from typing import Any
 
+from relnav.checkout import IS_CHECKOUT, ROOT, RTL, build_folder
 from relnav.errors import BackendError
 from relnav.ivisnav.quantise import QuantisedRows
 from relnav.ivisnav.raw import RawRates
@@ -29,7 +30,6 @@ from relnav.quantise import QuantisedFrame
 from . import job
 from .cores import CORES
 
-CHECKOUT = Path(__file__).resolve().parents[3]
 BENCH = "relnav.rtlsim.bench"
 HARNESS = "core_harness"
 # how Icarus and Verilator begin an error: FILE:LINE: ..., %Error[-CODE]: FILE:LINE:COLUMN: ...
@@ -91,9 +91,9 @@ def _run(
     if not frames:
         return []
     runner = _runner()
-    rtl = CHECKOUT / "rtl" if rtl_dir is None else Path(rtl_dir)
+    rtl = RTL if rtl_dir is None else Path(rtl_dir)
     top = CORES[core].top
-    sources = [*_sources(runner, rtl, top), CHECKOUT / "sim" / f"{HARNESS}.v"]
+    sources = [*_sources(runner, rtl, top), ROOT / "sim" / f"{HARNESS}.v"]
     values = ", ".join(f".{name}({value})" for name, value in parameters.items())
     if waves is None and os.environ.get("RELNAV_WAVES"):
         waves = Path(os.environ["RELNAV_WAVES"])
@@ -135,15 +135,19 @@ def _run(
 
 
 def _runner() -> Any:
-    """sim.runner of this checkout."""
-    if not (CHECKOUT / "sim" / f"{HARNESS}.v").is_file():
-        raise BackendError(f"the RTL is simulated from a checkout of the repository, and {CHECKOUT} is none")
-    if str(CHECKOUT) not in sys.path:
-        sys.path.append(str(CHECKOUT))
+    """sim.runner of the checkout or of the wheel."""
+    if not (ROOT / "sim" / f"{HARNESS}.v").is_file():
+        raise BackendError(f"this installation of relnav has no RTL to simulate: {ROOT} holds none")
+    if str(ROOT) not in sys.path:
+        sys.path.append(str(ROOT))
+    if not IS_CHECKOUT:  # and sim.runner would build beside the package
+        os.environ.setdefault("RELNAV_BUILD", str(build_folder()))
     try:
         return importlib.import_module("sim.runner")
     except ImportError as error:
-        raise BackendError(f"the simulation needs more packages (make setup): {error}") from None
+        raise BackendError(
+            f"the simulation needs more packages (make setup, or pip install 'relnav[sim]'): {error}"
+        ) from None
 
 
 def _sources(runner: Any, rtl: Path, top: str) -> list[Path]:

@@ -222,3 +222,88 @@ async def reset_in_the_middle(dut: Any) -> None:
         value = rng.getrandbits(32)
         assert await axil.write(bus, 12, value) == axil.OKAY
         assert await axil.read(bus, 12) == (value, axil.OKAY)
+
+
+def copies(dut: Any) -> list[tuple[Any, int]]:
+    """Every flip-flop of every voted register, as (signal, bit)."""
+    registers = (dut.running_register, dut.write_register, dut.read_register)
+    signals = [getattr(register, name) for register in registers for name in ("first", "second", "third")]
+    return [(signal, bit) for signal in signals for bit in range(len(signal))]
+
+
+@cocotb.test(timeout_time=5, timeout_unit="ms")
+async def voted_upsets(dut: Any) -> None:
+    """One voted flip-flop after the other flips, in every second clock, under traffic: nobody sees it."""
+    bus, registers, monitor = await setup(dut, wait_share=0.3)
+    rng = random.Random(13)
+    words = [0] * WORDS
+    flips = 0
+
+    async def flip() -> None:
+        nonlocal flips
+        places = copies(dut)
+        while True:
+            rng.shuffle(places)
+            for signal, bit in places:
+                await FallingEdge(dut.clk)
+                signal.value = int(signal.value) ^ 1 << bit
+                await clocks.tick(dut, rng.randrange(1, 3))
+                flips += 1
+
+    async def writer() -> None:
+        for _ in range(25):
+            word = rng.randrange(WORDS // 2)
+            words[word] = value = rng.getrandbits(32)
+            assert await axil.write(bus, 4 * word, value) == axil.OKAY
+            assert await axil.write(bus, 4 * WORDS, value) == axil.SLVERR
+
+    async def reader() -> None:
+        for _ in range(50):
+            word = rng.randrange(WORDS // 2, WORDS)
+            assert await axil.read(bus, 4 * word) == (words[word], axil.OKAY)
+
+    for word in range(WORDS):
+        words[word] = rng.getrandbits(32)
+        assert await axil.write(bus, 4 * word, words[word]) == axil.OKAY
+    flipping = cocotb.start_soon(flip())
+    for _ in range(8):
+        axil.random_pauses(bus, rng)
+        await gather(writer(), reader())
+    flipping.cancel()
+    assert flips > 20 * len(copies(dut))
+    assert words == registers.words
+    assert monitor.done["b"] == WORDS + 400 and monitor.done["r"] == 400
+    assert registers.writes == WORDS + 400 and registers.reads == 400
+
+
+@cocotb.test(timeout_time=5, timeout_unit="ms")
+async def held_upsets(dut: Any) -> None:
+    """A bit of a held write address, or its parity, flips before its use: SLVERR and no access.
+
+    The same of data and strobe: tb/axi/core_registers (here they are ports, which cannot be flipped).
+    """
+    registers = Registers(dut, 0.0)
+    axil.Monitor(dut)
+    inputs = ("awaddr", "araddr", "wdata", "wstrb", "awprot", "arprot", "awvalid", "wvalid", "arvalid")
+    await clocks.start(dut, **{f"s_axil_{name}": 0 for name in inputs}, s_axil_bready=1, s_axil_rready=1)
+    await clocks.tick(dut, 2)
+    rng = random.Random(5)
+    writes = 0
+    for signal in (dut.write_address, dut.write_address_parity):
+        for bit in range(len(signal)):
+            for spoil in (True, False):
+                before = list(registers.words)
+                word, value, strobe = rng.randrange(WORDS), rng.getrandbits(32), rng.randrange(1, 16)
+                await raw_handshakes(dut, aw={"awaddr": 4 * word}, w={"wdata": value, "wstrb": strobe})
+                if spoil:  # in the one clock in which it is held
+                    signal.value = int(signal.value) ^ 1 << bit
+                    await ReadOnly()
+                    assert int(dut.upset.value) == 1 and int(dut.write_valid.value) == 0
+                    await FallingEdge(dut.clk)
+                while not int(dut.s_axil_bvalid.value):
+                    await clocks.tick(dut)
+                assert int(dut.s_axil_bresp.value) == (2 if spoil else 0)
+                await clocks.tick(dut, 2)
+                writes += not spoil
+                assert registers.writes == writes
+                assert not spoil or registers.words == before

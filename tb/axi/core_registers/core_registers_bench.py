@@ -8,7 +8,7 @@ from collections.abc import Callable
 from typing import Any
 
 import cocotb
-from cocotb.triggers import FallingEdge, gather
+from cocotb.triggers import FallingEdge, ReadOnly, gather
 
 from tb.axi.registers import CORE, MAP, STORED, Bench, merged
 from tb.common import axil, clocks
@@ -309,3 +309,116 @@ async def stress(dut: Any) -> None:
         rng.shuffle(names)
         await gather(writer(names[:1], 20), reader(names[1:], 20))
     assert bench.monitor.done == {"aw": 240, "w": 240, "b": 240, "ar": 240, "r": 240}
+
+
+async def flip(dut: Any, signal: Any, bit: int) -> None:
+    """Flip one bit at the next falling edge."""
+    await FallingEdge(dut.clk)
+    signal.value = int(signal.value) ^ 1 << bit
+
+
+@cocotb.test(timeout_time=5, timeout_unit="ms")
+async def configuration_upsets(dut: Any) -> None:
+    """A flip of any configuration bit or its parity raises UPSET until it is written again."""
+    bench = await Bench(dut).begin()
+    flag = MAP.FLAGS.UPSET.mask
+    rng = random.Random(21)
+    common = dut.common
+    held = {MAP.FRAC: 0, MAP.VARIANCE: 0}
+    for register, signals in {
+        MAP.FRAC: (common.config_frac, common.frac_parity),
+        MAP.VARIANCE: (common.config_variance, common.variance_parity),
+    }.items():
+        for signal in signals:
+            for bit in range(len(signal)):
+                held[register] = rng.getrandbits(32) & 0x1F1F1F1F
+                await bench.write(register.ADDRESS, held[register])
+                await bench.clear()
+                assert int(dut.upset.value) == 0 == await bench.read(MAP.FLAGS.ADDRESS)
+                await flip(dut, signal, bit)
+                await clocks.tick(dut)
+                assert int(dut.upset.value) == 1
+                await bench.write(MAP.FLAGS.ADDRESS, flag)
+                assert (
+                    await bench.read(MAP.FLAGS.ADDRESS) == flag == await bench.read(MAP.FRAME_FLAGS.ADDRESS)
+                )
+                await bench.write(register.ADDRESS, held[register])
+                await clocks.tick(dut, 2)
+                assert int(dut.upset.value) == 0
+                await bench.write(MAP.FLAGS.ADDRESS, flag)
+                assert await bench.read(MAP.FLAGS.ADDRESS) == 0
+
+
+@cocotb.test(timeout_time=5, timeout_unit="ms")
+async def flag_upsets(dut: Any) -> None:
+    """A flag that rises or is lost by a flip is never alone: UPSET is beside it."""
+    bench = await Bench(dut).begin()
+    twins = dut.common.flags_register
+    upset = MAP.FLAGS.UPSET.mask
+    fields = list(MAP.FLAGS.FIELDS.values())
+    every = sum(field.mask for field in fields)
+    width = len(twins.first) // 2
+    for copy in (twins.first, twins.second):
+        for half in (0, 1):
+            for field in fields:
+                for raised in (0, every & ~upset & ~field.mask, every & ~upset):
+                    await bench.clear()
+                    await bench.pulse("flag_set", raised)
+                    await flip(dut, copy, half * width + field.low)
+                    await clocks.tick(dut, 3)
+                    seen = [await bench.read(MAP.FLAGS.ADDRESS), await bench.read(MAP.FRAME_FLAGS.ADDRESS)]
+                    expected = [raised | upset, raised | upset]
+                    if copy is twins.first:
+                        expected[half] = (raised ^ field.mask) | upset
+                    assert seen == expected
+
+
+@cocotb.test(timeout_time=5, timeout_unit="ms")
+async def voted_upsets(dut: Any) -> None:
+    """No flip of one voted flip-flop is seen: pulses, pushes, interrupt, frame counter."""
+    bench = await Bench(dut).begin()
+    for _ in range(5):
+        await bench.pulse("frame_complete")
+    await bench.write(MAP.IRQ_ENABLE.ADDRESS, 3)
+    dut.push_open.value = 1
+    for offered in (0, 1):
+        if offered:
+            await bench.write(MAP.PUSH.ADDRESS, 1)
+        for register in (dut.common.control_register, dut.common.event_register):
+            for name in ("first", "second", "third"):
+                copy = getattr(register, name)
+                for bit in range(len(copy)):
+                    await flip(dut, copy, bit)
+                    for _ in range(3):
+                        await ReadOnly()
+                        assert (int(dut.push_valid.value), int(dut.irq.value)) == (offered, 1)
+                        assert not offered or int(dut.push_last.value) == 1
+                        await FallingEdge(dut.clk)
+        assert MAP.STATUS.FRAME.get(await bench.read(MAP.STATUS.ADDRESS)) == 5
+        assert await bench.read(MAP.IRQ_ENABLE.ADDRESS) == 3
+        assert await bench.read(MAP.IRQ_STATUS.ADDRESS) == 1
+        assert await bench.read(MAP.FLAGS.ADDRESS) == 0
+    assert bench.pulses == {"soft_reset": 0, "acknowledge": 0}
+
+
+@cocotb.test(timeout_time=5, timeout_unit="ms")
+async def held_upsets(dut: Any) -> None:
+    """Any bit of a held write flips before its use: SLVERR, no register changes, UPSET."""
+    bench = await Bench(dut).begin()
+    slave = dut.common.slave
+    rng = random.Random(23)
+    held = 0
+    spoilt = slave.write_data, slave.write_strobe, slave.write_parity
+    for signal in (*spoilt, slave.write_address, slave.write_address_parity):
+        for bit in range(len(signal)):
+            writing = cocotb.start_soon(axil.write(bench.bus, MAP.VARIANCE.ADDRESS, rng.getrandbits(32)))
+            while not int(slave.address_full.value) or not int(slave.data_full.value):
+                await FallingEdge(dut.clk)
+            signal.value = int(signal.value) ^ 1 << bit
+            assert await writing == axil.SLVERR
+            assert await bench.read(MAP.VARIANCE.ADDRESS) == held
+            assert await bench.read(MAP.FLAGS.ADDRESS) == MAP.FLAGS.UPSET.mask
+            await bench.clear()
+            held = rng.getrandbits(32)
+            await bench.write(MAP.VARIANCE.ADDRESS, held)
+    assert await bench.read(MAP.FLAGS.ADDRESS) == 0

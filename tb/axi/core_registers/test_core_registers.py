@@ -19,7 +19,7 @@ def test_core_registers(simulator: str, build: str) -> None:
     core = "ivisnav" if build == "ivisnav" else "oltae"
     build_and_test(
         f"{core}_registers",
-        sources("axi"),
+        sources("axi", "trust"),
         "core_registers_bench",
         simulator=simulator,
         parameters=BUILDS[build],

@@ -150,12 +150,14 @@ class Bench:
         self.frames = 0
         self.count: dict[str, int] = dict.fromkeys(PULSES, 0)
         self.reset_in: set[tuple[str, int, bool]] = set()
+        self.abort_in: set[tuple[str, int, bool]] = set()
+        self.aborted = False  # the open frame is given up
+        self.rows: int | None = None  # of the frame that ended, until the next
 
     async def begin(self) -> Bench:
-        names = ("accept", "weighted", "soft_reset", "beat_ready", "s_axis_tvalid", "push_valid", "push_last")
-        await clocks.start(
-            self.dut, **dict.fromkeys((*names, "s_axis_tlast", "s_axis_tdata", "push_data"), 0)
-        )
+        names = ("accept", "weighted", "soft_reset", "give_up", "beat_ready")
+        sources = ("s_axis_tvalid", "s_axis_tlast", "s_axis_tdata", "push_valid", "push_last", "push_data")
+        await clocks.start(self.dut, **dict.fromkeys((*names, *sources), 0))
         return self
 
     def next_frame(self) -> Source | None:
@@ -165,7 +167,13 @@ class Bench:
                 return self.sources[name]
         return None
 
-    async def clock(self, soft_reset: bool = False) -> None:
+    def rows_done(self) -> int:
+        """Rows of the open frame whose last beat has been taken, those before the first beat included."""
+        assert self.open is not None
+        frame = self.open.frames[0]
+        return min(frame.done + self.accepted // (BEATS + frame.weighted), LONGEST)
+
+    async def clock(self, soft_reset: bool = False, give_up: bool = False) -> None:
         """One clock: drive at this falling edge, check, go to the next."""
         dut, rng = self.dut, self.rng
         for source in self.sources.values():
@@ -180,6 +188,7 @@ class Bench:
         dut.accept.value = int(accept)
         dut.weighted.value = weighted
         dut.soft_reset.value = int(soft_reset)
+        dut.give_up.value = int(give_up)
         dut.beat_ready.value = int(rng.random() >= self.stall)
         await ReadOnly()
 
@@ -189,6 +198,13 @@ class Bench:
         takers = [source for source in self.sources.values() if source.taken()]
         beat = int(dut.beat_valid.value) and int(dut.beat_ready.value)
         start = None
+        held = soft_reset or (give_up and STATES[int(dut.state.value)] != "SWALLOW")
+        assert int(dut.open.value) == int(self.open is not None)
+        assert not int(dut.upset.value)
+        if self.open is not None and not self.aborted:
+            assert int(dut.rows.value) == self.rows_done()
+        elif self.rows is not None:
+            assert int(dut.rows.value) == self.rows, "the rows of the frame that ended"
         if self.open is None:
             upcoming = self.next_frame()
             starts = accept and upcoming is not None and not soft_reset
@@ -201,6 +217,9 @@ class Bench:
             assert all(source is self.open for source in takers), "a beat of the other source was taken"
             assert int(dut.beat_weighted.value) == int(self.open.frames[0].weighted)
             due = self.expected.pulses[self.accepted] if takers else set()
+            if self.aborted:
+                due = {"frame_dropped"} & due or ({"frame_dropped"} if "frame_end" in due else set())
+                assert not int(dut.beat_valid.value), "a beat of a frame given up"
             assert pulses == due, f"{pulses} instead of {due}"
             if beat:
                 last = int(dut.beat_last.value)
@@ -210,10 +229,12 @@ class Bench:
                 assert takers, "the array took a beat that the source keeps"
                 assert self.seen == self.expected.beats[: len(self.seen)], (self.seen[-1], len(self.seen))
             self.accepted += len(takers)
-        if soft_reset:
-            assert not takers and not pulses and not beat
+        if held:
+            assert not takers and not pulses - {"clear", "frame_start"} and not beat
+            assert not (soft_reset and pulses)
             offered = self.open.offered if self.open else self.next_frame() is not None
-            self.reset_in.add((STATES[int(dut.state.value)], int(dut.beat.value), offered))
+            kind = self.reset_in if soft_reset else self.abort_in
+            kind.add((STATES[int(dut.state.value)], int(dut.beat.value), offered))
 
         await FallingEdge(dut.clk)
         self.busy = max(0, self.busy - 1)
@@ -221,13 +242,19 @@ class Bench:
             self.open = start
             self.expected = expect(start.frames[0])
             self.seen, self.accepted = [], 0
+            self.aborted, self.rows = False, None
             if start.frames[0].done:
-                dut.count.value = start.frames[0].done + 1
+                dut.count.value = start.frames[0].done
                 dut.enough.value = 1
+        elif give_up and self.open is not None:
+            self.aborted = True
+        if "frame_end" in pulses:
+            self.rows = self.rows_done()
         for source in takers:
             source.advance()
         if "frame_end" in pulses or "frame_dropped" in pulses:
-            assert self.accepted == self.expected.length and self.seen == self.expected.beats
+            assert self.accepted == self.expected.length
+            assert self.aborted or self.seen == self.expected.beats
             self.open = None
             self.frames += 1
             if "frame_end" in pulses:
@@ -235,6 +262,7 @@ class Bench:
         if soft_reset and self.open is not None:
             self.open.drop()
             self.open = None
+            self.rows = None
 
     async def drain(self, limit: int = 200_000) -> None:
         for _ in range(limit):
@@ -352,6 +380,52 @@ async def resets(dut: Any) -> None:
 
 
 @cocotb.test(timeout_time=20, timeout_unit="ms")
+async def aborts(dut: Any) -> None:
+    """An give_up in every state, at every beat: the frame is swallowed, the next is good."""
+    bench = await Bench(dut, 6).begin()
+    bench.gap, bench.stall = 0.4, 0.2
+    parts = range(BEATS + FRONT)
+    wanted = {("LOAD", part, offered) for part in parts for offered in (False, True)} | {("IDLE", 0, True)}
+    for _ in range(40_000):
+        for source in bench.sources.values():
+            if not source.frames:
+                source.frames.append(random_frame(bench.rng, bench.rng.choice(["good", "good", "long"])))
+        seen = {(state, 0 if state == "IDLE" else part, offered) for state, part, offered in bench.abort_in}
+        if wanted <= seen and bench.frames > 200:
+            break
+        await bench.clock(give_up=bench.rng.random() < (0.3 if bench.open is None else 0.03))
+    await bench.drain()
+    assert wanted <= seen, f"no give_up came in {sorted(wanted - seen)}"
+    assert bench.count["frame_end"] > 20 and bench.count["frame_dropped"] > 50
+
+
+@cocotb.test(timeout_time=20, timeout_unit="ms")
+async def weight_upset(dut: Any) -> None:
+    """A flip of either copy of a weight that is held while a frame loads is told of in the next clock."""
+    copies = dut.g_front.weight_register
+    bench = await Bench(dut, 7).begin()
+    stream = bench.sources["stream"]
+    for copy in (copies.first, copies.second):
+        for bit in range(16):
+            stream.frames.append(Frame(beats(bench.rng, LEAST, True), True))
+            while bench.accepted == 0 or bench.open is None:
+                await bench.clock()
+            copy.value = int(copy.value) ^ 1 << bit
+            dut.s_axis_tvalid.value = 0
+            stream.offered = False
+            await FallingEdge(dut.clk)
+            assert int(dut.upset.value) == 1
+            dut.soft_reset.value = 1
+            stream.drop()
+            bench.open = None
+            await FallingEdge(dut.clk)
+            dut.soft_reset.value = 0
+            await FallingEdge(dut.clk)
+            assert int(dut.upset.value) == 0, "told of though no frame is open"
+            bench.accepted = 0
+
+
+@cocotb.test(timeout_time=20, timeout_unit="ms")
 async def priority(dut: Any) -> None:
     """A push waits for an open stream frame and is taken before the next one, and the other way round."""
     bench = await Bench(dut, 4).begin()
@@ -382,6 +456,7 @@ async def longest_frames(dut: Any) -> None:
         accept=1,
         weighted=0,
         soft_reset=0,
+        give_up=0,
         beat_ready=1,
         s_axis_tvalid=0,
         s_axis_tlast=0,
@@ -400,7 +475,7 @@ async def longest_frames(dut: Any) -> None:
         await ClockCycles(dut.clk, BEATS * LONGEST - 1)  # all but the last beat of row 65535
         await FallingEdge(dut.clk)
         dut.s_axis_tlast.value = 1 - extra
-        assert int(dut.count.value) == LONGEST
+        assert int(dut.rows.value) == LONGEST - 1
         assert await settle() == (set() if extra else {"frame_end"})
         assert int(dut.beat_last.value) == 1 - extra and int(dut.beat_index.value) == BEATS - 1
         await FallingEdge(dut.clk)

@@ -3,9 +3,8 @@ from __future__ import annotations
 
 import pytest
 
-from sim.runner import RTL, build_and_test
+from sim.runner import build_and_test, sources
 
-SOURCES = [RTL / "axi" / "frame_loader.v"]
 BUILDS = {
     "weight-in-front": {"BEATS": 3, "LEAST": 3, "WEIGHTED": 1},
     "no-weight": {"BEATS": 3, "LEAST": 3, "WEIGHTED": 0},
@@ -15,12 +14,14 @@ BUILDS = {
 
 @pytest.mark.parametrize("build", BUILDS)
 def test_frame_loader(simulator: str, build: str) -> None:
-    tests = ["random_frames", "every_error", "resets", "priority"]
+    tests = ["random_frames", "every_error", "resets", "aborts", "priority"]
+    if build == "weight-in-front":
+        tests.append("weight_upset")
     if simulator == "verilator" or build == "weight-in-front":  # 65535 rows for real: 10 s on Icarus
         tests.append("longest_frames")
     build_and_test(
         "frame_loader",
-        SOURCES,
+        sources("axi", "trust"),
         "frame_loader_bench",
         simulator=simulator,
         parameters=BUILDS[build],

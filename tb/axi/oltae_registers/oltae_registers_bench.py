@@ -61,3 +61,25 @@ async def not_built(dut: Any) -> None:
                 == await bench.read(Oltae.FRAME_FLAGS.ADDRESS)
             )
             await bench.clear()
+
+
+@cocotb.test(timeout_time=2, timeout_unit="ms")
+async def configuration_upsets(dut: Any) -> None:
+    """A flip of CONFIG, of `asked` or of their parity raises UPSET until CONFIG is written again."""
+    bench = await Bench(dut).begin()
+    flag = Oltae.FLAGS.UPSET.mask
+    for value in (0, 0b1010 & BUILT, BUILT):
+        for signal in (dut.configuration, dut.asked, dut.parity):
+            for bit in range(len(signal)):
+                await bench.write(Oltae.CONFIG.ADDRESS, value)
+                await bench.clear()
+                assert int(dut.upset.value) == 0 == await bench.read(Oltae.FLAGS.ADDRESS)
+                signal.value = int(signal.value) ^ 1 << bit
+                await clocks.tick(dut, 2)
+                assert int(dut.upset.value) == 1
+                await bench.write(Oltae.FLAGS.ADDRESS, flag)
+                assert await bench.read(Oltae.FLAGS.ADDRESS) & flag
+                await bench.write(Oltae.CONFIG.ADDRESS, value)
+                await clocks.tick(dut, 2)
+                await bench.write(Oltae.FLAGS.ADDRESS, flag)
+                assert int(dut.upset.value) == 0 == await bench.read(Oltae.FLAGS.ADDRESS)

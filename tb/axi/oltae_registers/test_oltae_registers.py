@@ -12,7 +12,7 @@ def test_oltae_registers(simulator: str, full: int) -> None:
     env = {"CORE": "oltae", "FULL": str(full)}
     build_and_test(
         "oltae_registers",
-        sources("axi"),
+        sources("axi", "trust"),
         "oltae_registers_bench",
         simulator=simulator,
         parameters=build,

@@ -15,7 +15,9 @@ MIDDLE, LAST = int(os.environ["MIDDLE_FIRST"]), int(os.environ["LAST_FIRST"])
 GROUPS = {0: range(MIDDLE), 1: range(MIDDLE, LAST), 2: range(LAST, 64)}
 """Bit of `commit` -> indices."""
 GROUPS = {bit: indices for bit, indices in GROUPS.items() if indices}
-IDLE = dict.fromkeys(("write_valid", "write_index", "write_data", "commit", "read_valid", "read_index"), 0)
+IDLE = dict.fromkeys(
+    ("write_valid", "write_index", "write_data", "commit", "verify", "read_valid", "read_index"), 0
+)
 
 
 async def read(dut: Any, index: int) -> int:
@@ -125,3 +127,31 @@ async def both_at_once(dut: Any) -> None:
         collisions += store and fetch
         reads += fetch and not store
     assert collisions > 500 and reads > 500
+
+
+@cocotb.test(timeout_time=2, timeout_unit="ms")
+async def second_pass(dut: Any) -> None:
+    """With verify every word is compared with the one that stands, nothing is written; reads come between."""
+    await clocks.start(dut, **IDLE)
+    rng = random.Random(13)
+    for _ in range(3):
+        words = {index: rng.getrandbits(32) for index in range(64)}
+        for indices in GROUPS.values():
+            for index in indices:
+                await write(dut, index, words[index])
+                assert int(dut.differs.value) == 0
+        dut.commit.value = sum(1 << bit for bit in GROUPS)
+        await clocks.tick(dut)
+        dut.commit.value = 0
+        dut.verify.value = 1
+        for index in rng.sample(range(64), 64):
+            wrong = 1 << rng.randrange(32) if rng.random() < 0.4 else 0
+            await write(dut, index, words[index] ^ wrong)
+            assert int(dut.differs.value) == (wrong != 0), f"word {index}"
+            if rng.random() < 0.5:
+                await clocks.tick(dut)
+                assert int(dut.differs.value) == 0
+            if rng.random() < 0.3:
+                assert await read(dut, index) == words[index]
+        dut.verify.value = 0
+        assert [await read(dut, index) for index in range(64)] == list(words.values())

@@ -11,7 +11,7 @@ def test_result_store(simulator: str, middle: int, last: int) -> None:
     bounds = {"MIDDLE_FIRST": middle, "LAST_FIRST": last}
     build_and_test(
         "result_store",
-        [RTL / "axi" / "result_store.v"],
+        [RTL / "axi" / "result_store.v", RTL / "trust" / "voted_register.v"],
         "result_store_bench",
         simulator=simulator,
         parameters=bounds,

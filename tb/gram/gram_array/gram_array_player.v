@@ -3,10 +3,12 @@
 // A line: kind repeat gap weight beat_x beat_y beat_z (hexadecimal)
 //   kind 0: points, 1: points, the last of which ends the frame (then waits for pair_last), 2: clear, gap clocks ahead of the next line
 //   (with the next beat itself for gap 0), weight = mode, 3: redrain, 4: one point given up after its first `repeat` beats, 5: rst,
-//   6: as 1, but the next line follows gap clocks after the last beat, 7: as 4, with a clear in the clock after its last beat
+//   6: as 1, but the next line follows gap clocks after the last beat, 7: as 4, with a clear in the clock after its last beat,
+//   8: wait until the drain is checked, 9: as 3, but this drain is checked
 // gap: up to that many idle clocks before every beat (random).
 // Response, a line each:  pair clock slot lane last moment first_i first_j weight_sum point_count first_moments, clock after the last beat;
-//   sums weight_sum point_count | first first_moments: once after the last beat, as early as they are right;  clear;  end.
+//   sums weight_sum point_count | first first_moments: once after the last beat, as early as they are right;  clear;  end;
+//   checked | waited clock mismatch: at `checked`, waited where line 8 waits;  lost: neither came, nor pair_last, for 300 clocks.
 `resetall
 `default_nettype none
 `include "relnav_words.vh"
@@ -17,7 +19,7 @@ module gram_array_player #(
     input  wire clk,
     output reg  done
 );
-  localparam READ = 0, PLAY = 1, WAIT = 2, PAUSE = 3;
+  localparam READ = 0, PLAY = 1, WAIT = 2, PAUSE = 3, CHECK = 4;
 
   reg [8*256-1:0] name;
   integer stimulus, response, got;
@@ -39,6 +41,11 @@ module gram_array_player #(
   wire [`RELNAV_W(WEIGHTED)-1:0] weight_sum;
   wire [15:0] point_count;
   wire [6*`RELNAV_M1(WEIGHTED)-1:0] first_moments;
+  reg check;
+  wire checked, mismatch, value_valid;
+  wire [15:0] used_count;
+  wire [4:0] value_address;
+  wire [`RELNAV_M1(WEIGHTED)-1:0] value;
 
   gram_array #(
       .WEIGHTED(WEIGHTED)
@@ -63,8 +70,32 @@ module gram_array_player #(
       .pair_first_j(pair_first_j),
       .weight_sum(weight_sum),
       .point_count(point_count),
-      .used_count(),  // its only user is the value feeder, tested with the core
-      .first_moments(first_moments)
+      .used_count(used_count),
+      .first_moments(first_moments),
+      .check(check),
+      .value_valid(value_valid),
+      .value_address(value_address),
+      .value(value),
+      .checked(checked),
+      .mismatch(mismatch)
+  );
+
+  value_feeder #(
+      .WEIGHTED(WEIGHTED)
+  ) feeder (
+      .clk(clk),
+      .rst(rst),
+      .clear(clear),
+      .pair_last(pair_last && pair_valid && check),
+      .weight_sum(weight_sum),
+      .used_count(used_count),
+      .first_moments(first_moments),
+      .moment_scale(12'd0),
+      .variance(32'd0),
+      .value_valid(value_valid),
+      .value_address(value_address),
+      .value(value),
+      .value_scale()
   );
 
   initial begin
@@ -76,6 +107,7 @@ module gram_array_player #(
     beat_valid = 0;
     beat_last = 0;
     redrain = 0;
+    check = 1;
     beat_index = 0;
     first = 0;
     got = $value$plusargs("stimulus=%s", name);
@@ -104,6 +136,7 @@ module gram_array_player #(
     if (pair_valid && !rst)
       $fdisplay(response, "pair %0d %0d %0d %0d %h %h %h %h %h %h", clocks, pair_slot, pair_lane, pair_last, pair_moment,
                 pair_first_i, pair_first_j, weight_sum, point_count, first_moments);
+    if (checked) $fdisplay(response, "%0s %0d %0d", state == CHECK ? "waited" : "checked", clocks, mismatch);
     if (clear) $fdisplay(response, "clear");
     if (state == WAIT && kind == 1 && clocks == 1) $fdisplay(response, "sums %h %h", weight_sum, point_count);
     if (state == WAIT && kind == 1 && clocks == (WEIGHTED != 0 ? 4 : 2)) $fdisplay(response, "first %h", first_moments);
@@ -123,6 +156,7 @@ module gram_array_player #(
           case (kind)
             2: begin
               clear <= 1;
+              check <= 1;
               weighted <= weight[0];
               if (gap == 0) first = 1;
               else begin
@@ -137,8 +171,9 @@ module gram_array_player #(
                 words[2] = z;
               end
             end
-            3: begin
+            3, 9: begin
               redrain <= 1;
+              check <= kind == 9;
               clocks <= 0;
               state <= WAIT;
             end
@@ -147,6 +182,7 @@ module gram_array_player #(
               idle <= 2;
               state <= PAUSE;
             end
+            8: state <= CHECK;
             default: ;
           endcase
           if (kind == 0 || kind == 1 || kind == 4 || kind == 6 || kind == 7) begin
@@ -188,7 +224,12 @@ module gram_array_player #(
           offer(wait_now);
         end
       end
-      WAIT: if (pair_last) state <= READ;
+      WAIT, CHECK:
+      if (state == WAIT ? pair_last : checked) state <= READ;
+      else if (clocks > 300) begin
+        $fdisplay(response, "lost");
+        state <= READ;
+      end
       default: begin
         idle <= idle - 1;
         if (idle <= 1) state <= READ;

@@ -1,9 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 // Plays a file (+stimulus=) into a gram_ring and writes what comes out to another (+response=).
 // A line of the stimulus: delay kind index data (hexadecimal). It is presented `delay` clocks after the line before it; a beat stays until
-// it is taken.    kind = 16 wait + 8 rst + 4 clear + 2 beat + last;  wait: the delay counts from item_last on;  rst, clear: for one clock
+// it is taken.    kind = 64 redrain + 32 checked + 16 wait + 8 rst + 4 clear + 2 beat + last;  wait, checked: the delay counts from item_last,
+//   from `checked` on;  redrain: clocks count from here, 0;  rst, clear, redrain: for one clock
 // Response, a line each:  item clock row column last moment weight_sum row_count used_count h_bits y_bits weight_bits, clock after the last beat;
 //   sums weight_sum row_count used_count | bits h_bits y_bits weight_bits: after the last beat, as early as they are right;
+//   checked | waited clock mismatch: at `checked`, waited where a line waits for it;  lost: what a line waits for has not come for 300 clocks;
 //   last clock: of the last beat, 0 being the first beat after a clear;   clear: also at rst;   end.
 `resetall
 `default_nettype none
@@ -20,7 +22,7 @@ module gram_ring_player (
   reg [31:0] since_first, since_last;
   reg begun, ended;
 
-  reg rst, clear, beat_valid, beat_last;
+  reg rst, clear, redrain, beat_valid, beat_last;
   reg [63:0] beat_data;
   reg [1:0] beat_index;
   wire beat_ready, item_valid, item_last;
@@ -29,6 +31,8 @@ module gram_ring_player (
   wire [31:0] weight_sum;
   wire [15:0] row_count, used_count;
   wire [5:0] h_bits, y_bits, weight_bits;
+  wire checked, mismatch;
+  reg [31:0] waited;
 
   gram_ring dut (
       .clk(clk),
@@ -39,6 +43,7 @@ module gram_ring_player (
       .beat_data(beat_data),
       .beat_index(beat_index),
       .beat_last(beat_last),
+      .redrain(redrain),
       .item_valid(item_valid),
       .item_row(item_row),
       .item_column(item_column),
@@ -49,13 +54,19 @@ module gram_ring_player (
       .used_count(used_count),
       .h_bits(h_bits),
       .y_bits(y_bits),
-      .weight_bits(weight_bits)
+      .weight_bits(weight_bits),
+      .check(1'b1),
+      .checked(checked),
+      .mismatch(mismatch),
+      .differ()
   );
 
   initial begin
     done = 0;
     rst = 1;
     clear = 0;
+    redrain = 0;
+    waited = 0;
     beat_valid = 0;
     beat_last = 0;
     pending = 0;
@@ -76,6 +87,7 @@ module gram_ring_player (
                 item_moment, weight_sum, row_count, used_count, h_bits, y_bits, weight_bits);
     if (ended && since_last == 1) $fdisplay(response, "sums %h %h %h", weight_sum, row_count, used_count);
     if (ended && since_last == 6) $fdisplay(response, "bits %0d %0d %0d", h_bits, y_bits, weight_bits);
+    if (checked && !rst) $fdisplay(response, "%0s %0d %0d", pending && kind[5] ? "waited" : "checked", since_last, mismatch);
     if (clear || rst) begin
       $fdisplay(response, "clear");
       begun = 0;
@@ -91,8 +103,9 @@ module gram_ring_player (
     end
 
     // ---- what comes next
-    rst   <= 0;
+    rst <= 0;
     clear <= 0;
+    redrain <= 0;
     if (!beat_valid || beat_ready) begin
       beat_valid <= 0;
       beat_last  <= 0;
@@ -106,10 +119,18 @@ module gram_ring_player (
         end
       end
       if (pending) begin
-        if (kind[4]) kind[4] = !item_last;
-        else if (delay != 0) delay = delay - 1;
+        if (kind[5:4] != 0) begin
+          if (kind[5] ? checked : item_last) kind[5:4] = 0;
+          else if (waited == 300) begin
+            $fdisplay(response, "lost");
+            kind[5:4] = 0;
+          end
+          waited = kind[5:4] != 0 ? waited + 1 : 0;
+        end else if (delay != 0) delay = delay - 1;
         else begin
           {rst, clear, beat_valid, beat_last} <= kind[3:0];
+          redrain <= kind[6];
+          if (kind[6]) since_last = 0;
           beat_index <= index[1:0];
           beat_data <= data;
           pending = 0;

@@ -3,6 +3,7 @@
 
 from __future__ import annotations
 
+import json
 import random
 from collections.abc import Sequence
 from dataclasses import dataclass
@@ -12,12 +13,15 @@ import pytest
 from relnav.model.gram_ring import DRAIN_ORDER, exact_sums, gram_ring
 
 from sim.runner import build_and_test, sources
+from tb.common.flips import registers
 from tb.common.vectors import corners, random_value, to_signed
 
 HERE = Path(__file__).resolve().parent
 LOW, HIGH = -(1 << 31), (1 << 31) - 1
 FIRST_ITEM = 20  # clocks after the last beat, as the header of gram_ring.v says
-WAIT, RST, CLEAR, BEAT, LAST = 16, 8, 4, 2, 1  # the player's kinds
+AGAIN = 7  # clocks from redrain to the first item
+CHECKED = 21  # clocks after item_last
+REDRAIN, CHECK, WAIT, RST, CLEAR, BEAT, LAST = 64, 32, 16, 8, 4, 2, 1  # the player's kinds
 
 Row = tuple[int, ...]
 """h0 .. h5, y, w"""
@@ -38,6 +42,7 @@ class Frame:
     """Another frame before this one, cut off by clear: idle clocks between its last beat and what follows."""
     given_up: int = 0
     """Beats after the first row of the frame cut off, in 1..7; 0: it was a whole frame of two rows."""
+    checks: int = 0  # drains whose check is waited for: the first, and that many less one again
 
 
 def beats_of(row: Row) -> list[int]:
@@ -74,8 +79,13 @@ def stimulus(rng: random.Random, frames: Sequence[Frame]) -> str:
                 start = k == index == 0
                 gap = rng.randint(0, frame.gap) if frame.gap else 0
                 present(delay if start else gap, (first if start else BEAT) | last, index, word)
-        wait = WAIT
-    present(0, WAIT)
+        for k in range(frame.checks):
+            if k:
+                present(rng.choice((0, 0, 1, 7)), REDRAIN)
+            present(0, CHECK)
+        wait = 0 if frame.checks else WAIT
+    if wait:
+        present(0, WAIT)
     return "".join(lines)
 
 
@@ -90,11 +100,16 @@ def expected(frame: Frame) -> list[Line]:
     counts = [sums.weight_sum, sums.row_count, sums.used_count]
     bits = [sums.h_bits, sums.y_bits, sums.weight_bits]
     lines: list[Line] = [] if frame.gap else [["last", 8 * (len(frame.rows) - 1) + 3]]
-    lines += [["sums", *counts], ["bits", *bits]]
-    for k, (row, column, moment) in enumerate(sums.items()):
-        assert (row, column) == DRAIN_ORDER[k]
-        last = int(k == len(DRAIN_ORDER) - 1)
-        lines.append(["item", FIRST_ITEM + k, row, column, last, moment, *counts, *bits])
+    for drain in range(max(frame.checks, 1)):
+        start = AGAIN if drain else FIRST_ITEM
+        held: list[Line] = [["sums", *counts], ["bits", *bits]]
+        lines += held
+        for k, (row, column, moment) in enumerate(sums.items()):
+            assert (row, column) == DRAIN_ORDER[k]
+            last = int(k == len(DRAIN_ORDER) - 1)
+            lines.append(["item", start + k, row, column, last, moment, *counts, *bits])
+        if frame.checks:
+            lines.append(["waited", start + len(DRAIN_ORDER) - 1 + CHECKED, 0])
     return lines
 
 
@@ -115,6 +130,10 @@ def response(file: Path) -> list[list[Line]]:
                 frames[-1].append([kind, *map(int, numbers)])
             case ["clear"]:
                 frames.append([])
+            case ["waited", clock, mismatch]:
+                frames[-1].append(["waited", int(clock), int(mismatch)])
+            case ["checked", _, mismatch]:
+                assert mismatch == "0"
             case _:
                 raise AssertionError(f"what is {line!r}?")
     return [lines for lines in frames if sum(line[0] == "item" for line in lines) >= len(DRAIN_ORDER)]
@@ -124,7 +143,7 @@ def play(simulator: str, tmp_path: Path, frames: Sequence[Frame]) -> None:
     (tmp_path / "stimulus.txt").write_text(stimulus(random.Random(1), frames))
     build_and_test(
         "gram_ring_player",
-        [*sources("gram"), HERE / "gram_ring_player.v"],
+        [*sources("gram", "trust"), HERE / "gram_ring_player.v"],
         "gram_ring_bench",
         simulator=simulator,
         plusargs=[f"+stimulus={tmp_path}/stimulus.txt", f"+response={tmp_path}/response.txt"],
@@ -168,6 +187,7 @@ def test_frames_follow_each_other_without_a_reset(simulator: str, tmp_path: Path
             pause=rng.choice((0, 0, 0, 1, 3)),
             clear_ahead=rng.choice((0, 0, 1, 1, 2, 5)),
             reset=rng.random() < 0.1,
+            checks=rng.choice((0, 1, 2, 3)),
         )
         for n in (6, 7, 50, 1, 2, 6, 6)
         for gap in (0, 0, 1, 2, 9)
@@ -193,8 +213,10 @@ def test_clear_at_any_time(simulator: str, tmp_path: Path) -> None:
 
 def test_corner_operands(simulator: str, tmp_path: Path) -> None:
     rng = random.Random(5)
-    frames = [Frame([(*(rng.choice(EDGES) for _ in range(7)), w)]) for w in WEIGHTS for _ in range(12)]
-    frames += [Frame([(value,) * 7 + (w,)] * 2) for w in (1, 32768, 65535) for value in EDGES]
+    frames = [
+        Frame([(*(rng.choice(EDGES) for _ in range(7)), w)], checks=1) for w in WEIGHTS for _ in range(12)
+    ]
+    frames += [Frame([(value,) * 7 + (w,)] * 2, checks=1) for w in (1, 32768, 65535) for value in EDGES]
     frames.append(Frame([(LOW, HIGH, -1, 0, 1, LOW, HIGH, 0)] * 3))  # no weight at all
     frames.append(Frame([(0, -1, 0, -1, 0, -1, LOW, 1)]))  # h_bits 0
     frames.append(Frame([(HIGH, 0, 0, 0, 0, 0, -1, 1)]))  # y_bits 0
@@ -204,7 +226,11 @@ def test_corner_operands(simulator: str, tmp_path: Path) -> None:
 
 def test_two_thousand_rows(simulator: str, tmp_path: Path) -> None:
     rng = random.Random(6)
-    play(simulator, tmp_path, [Frame(random_rows(rng, 1500)), Frame(random_rows(rng, 500), 3)])
+    play(
+        simulator,
+        tmp_path,
+        [Frame(random_rows(rng, 1500), checks=2), Frame(random_rows(rng, 500), 3, checks=1)],
+    )
 
 
 @pytest.mark.parametrize(
@@ -220,4 +246,63 @@ def test_two_thousand_rows(simulator: str, tmp_path: Path) -> None:
 def test_the_longest_frame(simulator: str, tmp_path: Path, row: Row) -> None:
     if simulator == "icarus":
         pytest.skip("long runs are Verilator's")
-    play(simulator, tmp_path, [Frame([row] * 65535)])
+    play(simulator, tmp_path, [Frame([row] * 65535, checks=2)])
+
+
+#: registers between the beats and the items, with their widths
+REGISTERS = registers(
+    """
+    dut.u_beats: active 1, step 3, shown 64, weight 16
+    dut.u_value_a.u_low: product 33, total 48
+    dut.u_counter.g_weights: sum 32
+    dut.u_operands: a_1 34, b_3 34, ring 238
+    dut: valid_1 1, valid_2 1, second_1 1, second_2 1, index_1 2, index_2 2
+    dut: slot_valid 1, slot 2, slot_set 1, slot_fresh 1, first_row 1, top_read 48
+    dut.u_control: write 1, write_address 3, product_address 3
+    dut.u_drain: looking 1, item 5, fetching 1, fetch_lane 3, fetch_slot 2, turns 7, turn_slot 2
+    dut.u_drain: read_lane 2, reading 1, row 3, column 3
+    dut.u_recombine: difference 48, middle 48, moment 96
+    dut: item_1 1, item_valid 1, place_1 6, item_row 3, item_column 3
+    """
+    + "\n".join(
+        f"dut.g_lane[{lane}].u_lane.{cell}: x_factor 16, y_factor 16, product 32, addend 48, sum 48"
+        for lane in (0, 3, 5, 6)
+        for cell in ("u_high", "u_low", "u_both")
+    )
+)
+FLIPPED = 60  # frames with a flip, after one without (in which Icarus has unknown values still)
+
+
+def test_what_a_flipped_register_changes_is_noticed(simulator: str, tmp_path: Path) -> None:
+    if simulator == "verilator":
+        pytest.skip("registers are flipped in Icarus")
+    rng = random.Random(7)
+    frames = [Frame(random_rows(rng, 5), checks=1) for _ in range(FLIPPED + 1)]
+    names = rng.choices(list(REGISTERS), k=FLIPPED)
+    # clocks after the clear: the last beat is taken in the 36th, the last item comes 47 later
+    flips = [
+        [k + 1, rng.randint(2, 82), name, rng.randrange(REGISTERS[name])] for k, name in enumerate(names)
+    ]
+    (tmp_path / "stimulus.txt").write_text(stimulus(rng, frames))
+    build_and_test(
+        "gram_ring_player",
+        [*sources("gram", "trust"), HERE / "gram_ring_player.v"],
+        "gram_ring_bench",
+        simulator=simulator,
+        plusargs=[f"+stimulus={tmp_path}/stimulus.txt", f"+response={tmp_path}/response.txt"],
+        env={"FLIPS": json.dumps(flips)},
+        public=False,
+    )
+    parts = (tmp_path / "response.txt").read_text().split("clear\n")
+    changed = 0
+    for frame, flip, part in zip(frames[1:], flips, parts[-FLIPPED:], strict=True):
+        want = [line[2:4] + line[5:7] for line in expected(frame) if line[0] == "item"]
+        got: list[Line] = []
+        for words in (line.split() for line in part.splitlines()):
+            if words[0] == "item":
+                _, _, row, column, _, moment, weight, *_ = words
+                got.append([int(row), int(column), to_signed(int(moment, 16), 96), int(weight, 16)])
+        if got != want:
+            changed += 1
+            assert "waited" not in part or part.split("waited")[1].split()[1] == "1", flip
+    assert changed > FLIPPED // 4

@@ -26,14 +26,15 @@ async def every_flag(dut: Any) -> None:
     frame = bench.good(9)
     h = frame.h
     flat = np.hstack((h[:, :5], h[:, 4:5]))  # two columns alike
-    one = np.where(np.arange(9) < 5, 7, 0)  # only five rows count
+    few = np.where(np.arange(9) < 5, 7, 0)  # only five rows count
     cases: list[tuple[str, QuantisedRows]] = [
         ("FEW_ROWS", bench.tail(frame, 1)),
         ("FEW_ROWS", bench.tail(frame, 5)),
         ("RANK_DEFICIENT", replace(frame, h=np.zeros_like(h))),
         ("RANK_DEFICIENT", replace(frame, h=np.tile(h[:1], (9, 1)), w=np.ones(9, np.int64))),
         ("RANK_DEFICIENT", replace(frame, h=flat)),
-        ("RANK_DEFICIENT", replace(frame, w=one)),
+        ("RANK_DEFICIENT", replace(frame, w=few)),
+        ("RANK_DEFICIENT", replace(frame, w=np.where(np.arange(9) == 4, 7, 0))),
         ("ILL_CONDITIONED", thin(bench)),
         ("ZERO_WEIGHT", replace(frame, w=np.zeros(9, np.int64))),
     ]

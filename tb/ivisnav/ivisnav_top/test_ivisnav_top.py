@@ -15,7 +15,7 @@ from relnav.quantise import INPUT_MIN
 from relnav.rtlsim import run_rate_frames
 
 from sim.runner import SIMULATORS, build_and_test, missing, sources
-from tb.ivisnav.frames import random_rows
+from tb.ivisnav.frames import observe, random_rows
 
 # Icarus simulates some 3000 clocks a second, a twentieth of Verilator's
 THOROUGH = {"FRAMES": "64", "STEP": "7"}
@@ -35,7 +35,7 @@ def test_ports(bench: str, simulator: str) -> None:
     )
 
 
-def check(frames: list[QuantisedRows], got: list[RawRates], variance: float) -> None:
+def check(frames: list[QuantisedRows], got: list[RawRates], variance: float, *, feed: str = "stream") -> None:
     """Bit for bit the model's; one latency."""
     model = RatesCore()
     cycles: set[tuple[int | None, ...]] = set()
@@ -43,6 +43,7 @@ def check(frames: list[QuantisedRows], got: list[RawRates], variance: float) -> 
         expected = model.run(frame, variance)
         told = f"frame {number}, n {frame.n}, fracs {frame.frac_h} {frame.frac_y}"
         assert result.flag_names == expected.flag_names, told
+        observe(frame, variance, feed, result)
         if expected.failed:
             assert result.words is None, told
             continue
@@ -80,4 +81,4 @@ def test_simulators_agree(feed: str) -> None:
     frames = [random_rows(rng) for _ in range(12)]
     icarus, verilator = (run_rate_frames(frames, name, variance=2.0, feed=feed) for name in SIMULATORS)
     assert icarus == verilator
-    check(frames, icarus, 2.0)
+    check(frames, icarus, 2.0, feed=feed)

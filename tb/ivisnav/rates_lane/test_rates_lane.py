@@ -99,20 +99,25 @@ class Lane:
 
 
 def words(steps: Sequence[Step], looks: Sequence[bool]) -> list[int]:
-    """The stimulus: each field in its clock."""
+    """The stimulus: each field in its clock. What is not written has an address all the same, any."""
+    rng = random.Random(215)
+
+    def given(address: int | None, bank: Bank) -> int:
+        return rng.randrange(DEPTH[bank]) if address is None else address
+
     stimulus = []
     for now, (step, look) in enumerate(zip(steps, looks, strict=True)):
         factor = steps[now - FACTOR] if now >= FACTOR else Step()
         addend = steps[now - ADDEND] if now >= ADDEND else Step()
         product = steps[now - WRITE_PRODUCT] if now >= WRITE_PRODUCT else Step()
         last = steps[now - WRITE_SUM] if now >= WRITE_SUM else Step()
-        address, moment = step.moment or (0, 0)
+        address, moment = step.moment or (given(None, Bank.A), rng.getrandbits(32))
         fields = [(int(look), 1), (int(step.moment is not None), 1), (address, 3), (moment, 32)]
         fields += [(int(step.own[0] == Bank.A), 1), (step.own[1], 5), (factor.x[0], 2), (factor.x[1], 5)]
         fields += [(int(factor.y is None), 1), (factor.y or 0, 32)]
-        fields += [(int(product.product is not None), 1), (product.product or 0, 3)]
+        fields += [(int(product.product is not None), 1), (given(product.product, Bank.P), 3)]
         fields += [(addend.c[0], 2), (addend.c[1], 5), (int(product.subtract), 1)]
-        fields += [(int(last.dest is not None), 1), (last.dest or 0, 5)]
+        fields += [(int(last.dest is not None), 1), (given(last.dest, Bank.S), 5)]
         stimulus.append(pack(fields))
     return stimulus
 

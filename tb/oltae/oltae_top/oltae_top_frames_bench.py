@@ -4,6 +4,7 @@
 from __future__ import annotations
 
 import os
+from dataclasses import replace
 from typing import Any
 
 import cocotb
@@ -42,7 +43,7 @@ async def frames_on_every_channel(dut: Any) -> None:
 
 @cocotb.test()
 async def every_turn(dut: Any) -> None:
-    """A cloud turned by nearly 180 degrees about nothing, x, y, z; and with turns forbidden."""
+    """A cloud turned by nearly 180 degrees about nothing, x, y, z; weighted too; and with turns forbidden."""
     bench = await Bench(dut, 8).begin()
     cloud = np.array([[9, 2, -3], [-4, 8, 1], [5, -6, 7], [1, 1, -9]], dtype=np.int64) << 20
     for turn, signs in enumerate(TURN_SIGNS):
@@ -50,6 +51,8 @@ async def every_turn(dut: Any) -> None:
             cloud, cloud @ np.diag(signs).astype(np.int64) + cloud[:, [1, 2, 0]] // 9, None, 16
         )
         assert (await bench.solve(frame)).turn == turn
+        if FULL:
+            assert (await bench.solve(replace(frame, w=np.array([1, 2, 3, 5])))).turn == turn
         forbidden = await bench.solve(frame, config=CoreConfig(forbid_turns=True, covariance=FULL))
         assert forbidden.turn == 0
 

@@ -14,11 +14,11 @@ from relnav.quantise import INPUT_MIN, QuantisedFrame
 from relnav.rtlsim import run_frames
 
 from sim.runner import SIMULATORS, build_and_test, missing, sources
-from tb.oltae.frames import random_frame
+from tb.oltae.frames import observe, random_frame
 
 BUILDS = {
-    "full": {"WEIGHTED": 1, "COVARIANCE": 1, "REAPPLY": 1},
-    "lean": {"WEIGHTED": 0, "COVARIANCE": 0, "REAPPLY": 0},
+    "full": {"WEIGHTED": 1, "COVARIANCE": 1, "REAPPLY": 1, "VERIFY": 1},
+    "lean": {"WEIGHTED": 0, "COVARIANCE": 0, "REAPPLY": 0, "VERIFY": 0},
 }
 # Icarus simulates some 3000 clocks a second, a twentieth of Verilator's
 THOROUGH = {"FRAMES": "64", "STEP": "7"}
@@ -41,7 +41,12 @@ def test_ports(build: str, bench: str, simulator: str) -> None:
 
 
 def check(
-    frames: list[QuantisedFrame], got: list[RawResult], config: CoreConfig, *, weighted: bool = True
+    frames: list[QuantisedFrame],
+    got: list[RawResult],
+    config: CoreConfig,
+    *,
+    weighted: bool = True,
+    feed: str = "stream",
 ) -> None:
     """Bit for bit the model's; one latency each for weighted and unweighted frames."""
     model = OltaeCore(weighted=weighted)
@@ -52,6 +57,7 @@ def check(
             cycles[frame.w is not None].add((result.cycles_q, result.cycles_pose, result.cycles_all))
         plain = replace(result, cycles_q=None, cycles_pose=None, cycles_all=None)
         assert plain == expected, f"frame {number}, n {frame.n}, frac {frame.frac}"
+        observe(frame, config, feed, result)
     assert all(len(found) <= 1 for found in cycles.values()), cycles
 
 
@@ -95,4 +101,4 @@ def test_simulators_agree(feed: str) -> None:
     config = CoreConfig(variance=2.0, reapply=feed == "registers")
     icarus, verilator = (run_frames(frames, name, config=config, feed=feed) for name in SIMULATORS)
     assert icarus == verilator
-    check(frames, icarus, config)
+    check(frames, icarus, config, feed=feed)

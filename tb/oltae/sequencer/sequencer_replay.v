@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// sequencer under replay, with a stub of solve_program: a program of at most 64 words, written by the stimulus.
+// sequencer under replay, with a stub of solve_program: a program anywhere in 1024 words, written by the stimulus.
 `resetall
 `default_nettype none
 
@@ -10,25 +10,27 @@ module sequencer_replay (
 );
   wire clear, start, stop, reapply;
   wire write;
-  wire [5:0] write_address;
+  wire [9:0] write_address;
   wire [3:0] write_word;
-  wire [5:0] call, target, leave, finish;
+  wire [9:0] call, target, leave, finish;
 
   // {there, first, last, probed}
-  reg [3:0] rom[0:63];
+  reg [3:0] rom[0:1023];
   reg [3:0] word;
-  reg [5:0] at;
+  reg [9:0] at;
   reg cleared;
   wire run, probing, reapplied;
   wire [9:0] counter, address;
-  wire leaving = counter == {4'd0, leave};
-  wire calling = reapply & ~reapplied & counter == {4'd0, call};
-  wire [9:0] following = calling ? {4'd0, target} : leaving ? {4'd0, call} : counter;
-  wire finished = address == {4'd0, finish};
+  wire leaving = counter == leave;
+  wire calling = reapply & ~reapplied & counter == call;
+  wire [9:0] following = calling ? target : leaving ? call : counter;
+  wire finished = address == finish;
+  integer k;
+  initial for (k = 0; k < 1024; k = k + 1) rom[k] = 4'd0;
   always @(posedge clk) begin
     if (write) rom[write_address] <= write_word;
-    word <= run & ~|address[9:6] ? rom[address[5:0]] : 4'd0;
-    at   <= address[5:0];
+    word <= run ? rom[address] : 4'd0;
+    at   <= address;
     cleared <= clear;
   end
 
@@ -50,8 +52,8 @@ module sequencer_replay (
   );
 
   replay #(
-      .IN_BITS (4 + 1 + 6 + 4 + 4 * 6),
-      .OUT_BITS(1 + 6 + 1 + 1)
+      .IN_BITS (4 + 1 + 10 + 4 + 4 * 10),
+      .OUT_BITS(1 + 10 + 1 + 1)
   ) u_replay (
       .clk(clk),
       .rst(rst),

@@ -1,0 +1,281 @@
+# SPDX-License-Identifier: Apache-2.0
+"""docs/verification.md from the results that the tools leave in the repository. Runs nothing itself.
+
+python scripts/verification.py
+"""
+
+from __future__ import annotations
+
+import json
+import sys
+from collections.abc import Iterable, Mapping
+from pathlib import Path
+from typing import Any
+
+ROOT = Path(__file__).resolve().parent.parent
+sys.path[:0] = [str(ROOT), str(ROOT / "sw")]
+
+from coverage.counters import KINDS  # noqa: E402 (the path is set above)
+from coverage.report import percent  # noqa: E402
+from mutate.benches import TB, first_tests, modules  # noqa: E402
+from scripts.marked import table  # noqa: E402
+from sim.sources import fingerprint  # noqa: E402
+
+PAGE = ROOT / "docs" / "verification.md"
+NOT_RUN = "not run"
+CHANGED = "\\*"
+"""Behind a result of an earlier text of the module."""
+Results = Mapping[str, Any]
+
+
+def load(tool: str) -> Results:
+    """The results of a tool; empty where it has not been run."""
+    file = ROOT / tool / "results.json"
+    found: Results = json.loads(file.read_text(encoding="utf-8")) if file.is_file() else {}
+    return found
+
+
+def stale(module: str, source: str) -> str:
+    """A mark where the module is no longer what was tried."""
+    return "" if source == fingerprint(module) else CHANGED
+
+
+def percents(part: int, whole: int) -> str:
+    """With the sign."""
+    return f"{percent(part, whole)} %"
+
+
+# ------------------------------------------------------------------------------------------ by module
+
+
+def tests(results: Results, module: str) -> str:
+    """Number of cases, and where they stand if not with the module."""
+    try:
+        folders = [folder.relative_to(TB).as_posix() for folder in first_tests(module)]
+    except ValueError:
+        return "none"
+    count = sum(results.get("tests", {}).get(folder, 0) for folder in folders)
+    inside = [folder.rpartition("/")[2] for folder in folders]
+    shown = str(count) if results else NOT_RUN
+    return shown if inside == [module] else f"{shown} in {', '.join(inside)}"
+
+
+def proofs(results: Results, module: str) -> tuple[str, str]:
+    """(proofs that pass, broken copies caught)."""
+    groups = [group for group in results.get("groups", []) if group["module"] == module]
+    if not groups:
+        return "-", "-"
+    mark = stale(module, groups[0]["source"])
+    passed = sum(group["status"] == "PASS" for group in groups)
+    broken, caught = sum(group["broken"] for group in groups), sum(group["caught"] for group in groups)
+    return f"{passed} of {len(groups)}{mark}", f"{caught} of {broken}{mark}" if broken else "-"
+
+
+def fates(row: Results) -> dict[str, int]:
+    """Number of mutants by what became of them."""
+    counted: dict[str, int] = {}
+    for fate in row["fates"]:
+        counted[fate["state"]] = counted.get(fate["state"], 0) + 1
+    return counted
+
+
+def killed_of(row: Results) -> tuple[int, int]:
+    """(killed, killable)."""
+    count = fates(row)
+    killed = count.get("killed", 0) + count.get("timeout", 0)
+    return killed, killed + count.get("survived", 0)
+
+
+def mutants(results: Results, module: str) -> str:
+    """Killed of those that can be."""
+    row = next((row for row in results.get("modules", []) if row["module"] == module), None)
+    if row is None:
+        return NOT_RUN
+    killed, killable = killed_of(row)
+    return f"{killed} of {killable}{stale(module, row['source'])}"
+
+
+def covered(results: Results, module: str) -> list[str]:
+    """Lines, branches, toggles."""
+    row = results.get("modules", {}).get(module)
+    if row is None:
+        return [NOT_RUN] * len(KINDS)
+    mark = stale(module, row["source"])
+    return [
+        f"{percents(row[kind][0], row[kind][2] - row[kind][1])}{mark}" if row[kind][2] else "-"
+        for kind in KINDS
+    ]
+
+
+def upsets(results: Results, module: str) -> str:
+    """Flips that went unnoticed with a wrong result, or hung, of all flips of the module in both cores."""
+    found = [
+        kind[module]
+        for core in results.get("now", {}).get("cores", {}).values()
+        for kind in core["modules"].values()
+        if module in kind
+    ]
+    flips = sum(row["trials"] for row in found)
+    if not flips:
+        return "-" if "now" in results else NOT_RUN
+    return f"{sum(row.get(name, 0) for row in found for name in ('silent', 'hang'))} of {flips}"
+
+
+def rows() -> list[list[str]]:
+    """Of every module of rtl/, by name."""
+    formal, mutation, coverage, faults = map(load, ("formal", "mutate", "coverage", "faults"))
+    return [
+        [
+            f"`{module}`",
+            tests(coverage, module),
+            *proofs(formal, module),
+            mutants(mutation, module),
+            *covered(coverage, module),
+            upsets(faults, module),
+        ]
+        for module in sorted(modules())
+    ]
+
+
+# -------------------------------------------------------------------------------------------- headline
+
+
+def headline() -> list[list[str]]:
+    """What was tried, the figure, the command that prints it, where more is said."""
+    formal, mutation, coverage = load("formal"), load("mutate"), load("coverage")
+    found = []
+    figure = NOT_RUN
+    if coverage:
+        figure = f"{sum(coverage['tests'].values())} cases, Icarus, Verilator and Python"
+    found.append(["tests", figure, "`make test`", "[tb](../tb/README.md)"])
+    figure = NOT_RUN
+    if formal:
+        figure = (
+            f"{formal['passed']} of {formal['proofs']}; {formal['caught']} of {formal['broken']} broken "
+            f"copies caught; {formal['seen_failing']} of {formal['assertions']} assertions seen to fail"
+        )
+    found.append(["proofs", figure, "`make formal`", "[formal](../formal/README.md)"])
+    figure = NOT_RUN
+    if mutation:
+        pairs = [killed_of(row) for row in mutation["modules"]]
+        killed, killable = sum(pair[0] for pair in pairs), sum(pair[1] for pair in pairs)
+        figure = (
+            f"{killed} of {killable} mutants killed, {percents(killed, killable)}, in {len(pairs)} modules"
+        )
+    found.append(["mutation", figure, "`make mutate`", "[mutate](../mutate/README.md)"])
+    for kind in KINDS:
+        figure = NOT_RUN
+        if coverage:
+            hit, waived, total = coverage["totals"][kind]
+            figure = (
+                f"{hit} of {total}, {percents(hit, total)}; "
+                f"{percents(hit, total - waived)} without the {waived} waived"
+            )
+        found.append([f"{kind} coverage", figure, "`make coverage`", "[coverage](../coverage/README.md)"])
+    figure = NOT_RUN
+    if coverage:
+        points = coverage["functional"].values()
+        hit, bins = sum(point["hit"] for point in points), sum(point["bins"] for point in points)
+        figure = f"{hit} of {bins} bins of {len(points)} points, {percents(hit, bins)}"
+    found.append(["functional coverage", figure, "`make coverage`", "[coverage](../coverage/README.md)"])
+    return found + [[*row, "`make faults`", "[faults](../faults/README.md)"] for row in upset_figures()]
+
+
+def upset_figures() -> list[tuple[str, str]]:
+    """Of each class of flip-flops, both cores together."""
+    cores = load("faults").get("now", {}).get("cores", {}).values()
+    if not cores:
+        return [("upsets", NOT_RUN)]
+    found = []
+    for kind in ("control", "configuration", "data", "memory"):
+        table_of = [core["classes"][kind] for core in cores]
+
+        def total(name: str, of: list[Any] = table_of) -> int:
+            return sum(row.get(name, 0) for row in of)
+
+        told = (
+            f"{total('trials')} flips in {total('bits')} bits: silent {total('silent')}, "
+            f"hang {total('hang')}; next frame wrong {total('next wrong')}, hang {total('next hang')}"
+        )
+        found.append((f"upsets, {kind}", told))
+    return found
+
+
+# --------------------------------------------------------------------------------------------- missing
+
+
+def listed(names: Iterable[str]) -> str:
+    """In code."""
+    return ", ".join(f"`{name}`" for name in sorted(names)) or "none"
+
+
+def missing() -> list[str]:
+    """What is known to be missing, from the results."""
+    formal, mutation, coverage, faults = map(load, ("formal", "mutate", "coverage", "faults"))
+    every = set(modules())
+    found = []
+    if formal:
+        proved = {group["module"] for group in formal["groups"]}
+        found.append(f"Proofs: {len(every - proved)} of {len(every)} modules have none of their own.")
+        found.append(f"Assertions that no broken copy made fail: {listed(formal['never_failed'])}.")
+    if mutation:
+        tried = {row["module"]: killed_of(row) for row in mutation["modules"]}
+        low = [
+            name for name, (killed, killable) in tried.items() if 100 * killed < mutation["goal"] * killable
+        ]
+        found.append(f"Mutation: below {mutation['goal']:g} %: {listed(low)}.")
+        found.append(f"Mutation: not tried: {listed(every - tried.keys())}.")
+        survivors = sum(killable - killed for killed, killable in tried.values())
+        found.append(f"Mutants that survive and are neither proved nor argued equivalent: {survivors}.")
+    if coverage:
+        holes = {
+            name
+            for name, row in coverage["modules"].items()
+            for kind in ("line", "branch")
+            if sum(row[kind][:2]) < row[kind][2]
+        }
+        found.append(f"Lines or branches missed in {listed(holes)} ([report](../coverage/report.md)).")
+        gaps = [
+            f"{name}: {', '.join(point['holes'])}"
+            for name, point in coverage["functional"].items()
+            if point["holes"]
+        ]
+        found.append(f"Functional coverage, bins not hit: {'; '.join(gaps) or 'none'}.")
+    for core in faults.get("now", {}).get("cores", {}).values():
+        silent = sorted(core["silent data"].items(), key=lambda pair: -pair[1])
+        if silent:
+            found.append(f"Silent upsets of data, most of them in {listed(name for name, _ in silent[:5])}.")
+    return found
+
+
+def text() -> str:
+    """The page."""
+    head = [
+        "module",
+        "test cases",
+        "proofs",
+        "broken copies",
+        "mutants killed",
+        *KINDS,
+        "silent or hung upsets",
+    ]
+    parts = [
+        "<!-- Written by `make verification`; do not edit. -->",
+        "# Verification",
+        "From the last run of each tool; the commands print the figures. Percentages by module are without "
+        "points that [waivers.toml](../coverage/waivers.toml) says cannot be hit; mutants without those that "
+        "cannot be noticed.",
+        table(["", "figure", "command", "more"], headline()),
+        "## By module",
+        "Cases are those of the module's own bench, or of those named, which try it inside their module. "
+        f"{CHANGED}: the module has changed since.",
+        table(head, rows()),
+        "## Known to be missing",
+        "\n".join(f"* {line}" for line in missing()),
+    ]
+    return "\n\n".join(parts) + "\n"
+
+
+if __name__ == "__main__":
+    PAGE.write_text(text(), encoding="utf-8")
+    print(f"{PAGE.relative_to(ROOT)} written")
