@@ -82,7 +82,7 @@ SLAVE_PROTOCOL = faults(
     ("r_comes", "capture || (s_axil_rvalid &&", "(capture && s_axil_rready) || (s_axil_rvalid &&"),
     ("read_once", "= issue && read_aligned;", "= issue;"),
     ("read_once", "accept || (issue && read_wait)", "accept"),
-    ("read_handed_on", "if (s_axil_arready) begin", "if (s_axil_arvalid) begin"),
+    ("read_handed_on", "if (s_axil_arready) read_address", "if (s_axil_arvalid) read_address"),
     (
         "r_reset",
         ") read_register (\n      .clk(clk),\n      .rst(rst),",
@@ -144,8 +144,8 @@ LOADER_FRONT = (
         ("closed_by_reset", "if (soft_reset) next_state = IDLE;", ""),
         ("no_beat_made", "|| (give_up && load)) next_state = SWALLOW;", ") next_state = SWALLOW;"),
         ("open_right", "assign open = load || swallow;", "assign open = load;"),
-        ("rows_right", "else if (row_done) count <=", "else if (row_done && !beat_last) count <="),
-        ("no_false_alarm", ".load(take),", ".load(take && !s_axis_tvalid),"),
+        ("rows_right", "count  <= count + 16'd1;", "count  <= count + {15'd0, !beat_last};"),
+        ("upset_told", "upset <= (differ || give_up) && load", "upset <= (differ || give_up)"),
         ("one_source", "assign s_axis_tready = ready && !from_push;", "assign s_axis_tready = ready;"),
         (
             "push_told",

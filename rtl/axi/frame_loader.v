@@ -21,8 +21,9 @@
 // soft_reset drops whatever is open and takes no beat in its clock; what is left of that frame at the source opens a new one.
 // give_up takes no beat of a frame that loads either; the frame is swallowed to its end, where frame_dropped comes without a flag. It may stay.
 //
-// Upsets: state, source, beat and mode are voted; a flip of the rest makes a flag at worst. A row's weight, held for the row, has a twin; `upset` tells in the next clock
-// of a weight that changed while a frame was loading. The rows are counted once: `rows` is there to be compared with the array's count.
+// Upsets: state, source, beat and mode are voted; a flip of the rest makes a flag at worst. A row's weight, held for the row, has a twin;
+// `upset` tells in the next clock of a weight that changed while a frame was loading, and of a frame given up, so that none goes without
+// a flag. The rows are counted once: `rows` is there to be compared with the array's count.
 `resetall
 `default_nettype none
 
@@ -74,7 +75,7 @@ module frame_loader #(
     // trust
     output wire        open,   // a frame is, or is being swallowed
     output wire [15:0] rows,   // complete, of the open frame; after frame_end until the next clear
-    output wire        upset   // the weight held had changed
+    output reg         upset   // the frame was given up, or the weight held had changed
 );
 
   // both states with the upper bit are SWALLOW
@@ -173,10 +174,13 @@ module frame_loader #(
 
   // ---- weights
 
+  wire differ;
+  always @(posedge clk) upset <= (differ || give_up) && load && !rst;
+
   generate
     if (WEIGHTED == 1) begin : g_front
-      wire mode, differ;
-      reg some, changed;
+      wire mode;
+      reg some;
       wire take = fire && weight_beat;
       voted_register #(
           .WIDTH(1),
@@ -201,13 +205,11 @@ module frame_loader #(
           .q(beat_weight),
           .differ(differ)
       );
-      always @(posedge clk) changed <= differ && load && !rst;
-      assign upset = changed;
       assign beat_weighted = mode;
       assign some_weight   = some;
     end else begin : g_fixed
       assign beat_weighted = 1'b0;
-      assign upset = 1'b0;
+      assign differ = 1'b0;
       if (WEIGHTED == 2) begin : g_inside
         reg  some;
         wire here = beat_weight != 16'd0;

@@ -152,6 +152,7 @@ class Bench:
         self.reset_in: set[tuple[str, int, bool]] = set()
         self.abort_in: set[tuple[str, int, bool]] = set()
         self.aborted = False  # the open frame is given up
+        self.told = False  # an upset is due
         self.rows: int | None = None  # of the frame that ended, until the next
 
     async def begin(self) -> Bench:
@@ -200,7 +201,8 @@ class Bench:
         start = None
         held = soft_reset or (give_up and STATES[int(dut.state.value)] != "SWALLOW")
         assert int(dut.open.value) == int(self.open is not None)
-        assert not int(dut.upset.value)
+        assert int(dut.upset.value) == int(self.told)
+        self.told = give_up and STATES[int(dut.state.value)] == "LOAD"
         if self.open is not None and not self.aborted:
             assert int(dut.rows.value) == self.rows_done()
         elif self.rows is not None:
@@ -381,7 +383,7 @@ async def resets(dut: Any) -> None:
 
 @cocotb.test(timeout_time=20, timeout_unit="ms")
 async def aborts(dut: Any) -> None:
-    """An give_up in every state, at every beat: the frame is swallowed, the next is good."""
+    """Given up in every state, at every beat: the frame is swallowed, the next is good."""
     bench = await Bench(dut, 6).begin()
     bench.gap, bench.stall = 0.4, 0.2
     parts = range(BEATS + FRONT)
@@ -395,7 +397,7 @@ async def aborts(dut: Any) -> None:
             break
         await bench.clock(give_up=bench.rng.random() < (0.3 if bench.open is None else 0.03))
     await bench.drain()
-    assert wanted <= seen, f"no give_up came in {sorted(wanted - seen)}"
+    assert wanted <= seen, f"not given up in {sorted(wanted - seen)}"
     assert bench.count["frame_end"] > 20 and bench.count["frame_dropped"] > 50
 
 
