@@ -26,7 +26,7 @@ FAULTS_ARGS ?=
 # modules to prove, all by default
 FORMAL_ARGS ?=
 
-.PHONY: help setup setup-c sim sim-ivisnav test c soak waves synth timing package bench formal docs verification mutate faults coverage lint format clean distclean
+.PHONY: help setup setup-c sim sim-ivisnav test c soak waves synth timing package bench formal docs site verification mutate faults coverage lint format clean distclean
 
 help: ## this list
 	@awk -F ':.*## ' '/^[a-z%<>-]+:.*## / { printf "  make %-14s %s\n", $$1, $$2 }' $(MAKEFILE_LIST)
@@ -67,10 +67,15 @@ synth: setup ## area on Xilinx 7 with Yosys, into syn/results.json and the READM
 timing: setup ## place and route on ECP5-85k with nextpnr (slow), into syn/results.json and the README
 	@$(BIN)/python syn/timing.py
 
-docs: setup ## fill the tables of README and docs/ from the last runs (after make sim sim-ivisnav)
+docs: setup ## fill README and docs/ from the last runs (after make sim sim-ivisnav), build the site in out/site
 	@$(BIN)/python scripts/readme_sim.py && $(BIN)/python scripts/latency.py && \
 	  $(BIN)/python scripts/ivisnav_sheet.py && $(BIN)/python scripts/decisions.py && \
-	  $(BIN)/python scripts/verification.py
+	  $(BIN)/python scripts/verification.py && $(BIN)/python scripts/data_sheets.py && \
+	  $(BIN)/python scripts/figures.py && $(BIN)/python scripts/plots.py && $(BIN)/python scripts/wavedrom_svg.py
+	@$(MAKE) --no-print-directory site
+
+site: setup ## the site alone, into out/site
+	@NO_MKDOCS_2_WARNING=1 $(BIN)/mkdocs build --quiet --strict && echo "site: out/site/index.html"
 
 verification: setup ## docs/verification.md from the results of formal, mutate, coverage and faults
 	@$(BIN)/python scripts/verification.py

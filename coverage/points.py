@@ -284,7 +284,9 @@ def _save() -> None:
         _name = (os.getpid(), f"functional-{uuid.uuid4().hex}.xml")
     folder = Path(os.environ["RELNAV_COVERAGE"])
     folder.mkdir(parents=True, exist_ok=True)
-    library.coverage_db.export_to_xml(str(folder / _name[1]))
+    unfinished = folder / f"{_name[1]}.part"  # the process may be killed in mid-writing
+    library.coverage_db.export_to_xml(str(unfinished))
+    unfinished.replace(folder / _name[1])
 
 
 def _sample(top: str, kind: str, key: object, *values: object) -> None:

@@ -8,13 +8,15 @@ import sys
 import time
 from dataclasses import replace
 from datetime import UTC, datetime
+from itertools import groupby
 from pathlib import Path
 
 from faults import report
 from faults.campaign import QUICK, Found, Size, campaign, command, offences
 from faults.classes import classify
+from faults.costs import costs
 from faults.frames import WAYS, episode
-from faults.trials import BenchFailed, Model, Trial, build, run, window
+from faults.trials import BenchFailed, Model, Outcome, Trial, build, run, window
 from scripts.marked import fill
 from sim import runner
 from sim.sources import RTL
@@ -37,32 +39,40 @@ def _one(model: Model, args: argparse.Namespace) -> int:
         return 2
     bad = 0
     for way in [args.way] if args.way else ways:
-        end, read = window(model, way, args.seed)
-        clocks = read if args.reading or args.clock is not None else end
-        some = range(end if args.reading else 0, clocks) if args.clock is None else [args.clock]
-        if args.clock is not None and not 0 <= args.clock < clocks:
-            print(f"faults: {way} takes {clocks} clocks to the last result", file=sys.stderr)
-            return 2
+        times = window(model, way, args.seed)
+        some = range(times.end, times.read) if args.reading else range(times.end)
+        if args.clock is not None:
+            some = range(args.clock, args.clock + 1)
+            if not 0 <= args.clock < times.read:
+                print(f"faults: {way} takes {times.read} clocks to the last result", file=sys.stderr)
+                return 2
         outcomes = run(model, way, args.seed, [Trial(bit, way, clock, args.seed) for clock in some])
-        for one in sorted(outcomes, key=lambda one: one.trial.clock):
-            wrong = offences(one, kind)
-            bad += bool(wrong)
-            if args.clock is None and not wrong:
-                continue
-            print(
-                f"{bit.name} ({kind}, {bit.module}), {way}, clock {one.trial.clock} of {end}: "
-                f"frame 1 {one.verdict}, next {one.next}{', later ' + one.later if one.later else ''}"
-            )
-            names = [result.name for result in episode(model.top, way, args.seed).results]
-            for number, seen in enumerate(one.frames, 1):
-                wrong_bits = seen.wrong | seen.diagnostic
-                shown = " ".join(name for k, name in enumerate(names) if wrong_bits >> k & 1) or "-"
-                print(f"  frame {number}: flags 0x{seen.flags:x}, {seen.clocks} clocks, wrong: {shown}")
-            for word in (*one.how, *wrong):
-                print(f"  {word}")
-    if args.clock is None:
-        print(f"{bit.name} ({kind}): {bad} clocks in which a flip does what may not be")
+        outcomes.sort(key=lambda one: one.trial.clock)
+        bad += sum(bool(offences(one, kind)) for one in outcomes)
+        names = [result.name for result in episode(model.top, way, args.seed).results]
+        if args.clock is not None:
+            _tell(outcomes[0], kind, names)
+            continue
+        print(f"{way}: loaded at {times.loaded}, end at {times.end}")
+        same = groupby(outcomes, lambda one: (one.verdict, one.next, one.later, tuple(offences(one, kind))))
+        for (verdict, next_, later, words), group in same:
+            clocks = [one.trial.clock for one in group]
+            what = f"{verdict}, next {next_}{', later ' + later if later else ''}"
+            print(f"  clock {clocks[0]}..{clocks[-1]}: {what}{' !!! ' if words else ''}{'; '.join(words)}")
+    print(f"{bit.name} ({kind}, {bit.module}): {bad} flips do what may not be")
     return int(bool(bad))
+
+
+def _tell(one: Outcome, kind: str, names: list[str]) -> None:
+    """One outcome, frame by frame. names: of the results."""
+    later = f", later {one.later}" if one.later else ""
+    print(f"{one.trial.way}, clock {one.trial.clock}: frame 1 {one.verdict}, next {one.next}{later}")
+    for number, seen in enumerate(one.frames, 1):
+        wrong = seen.wrong | seen.diagnostic
+        shown = " ".join(name for k, name in enumerate(names) if wrong >> k & 1) or "-"
+        print(f"  frame {number}: flags 0x{seen.flags:x}, {seen.clocks} clocks, wrong: {shown}")
+    for word in (*one.how, *offences(one, kind)):
+        print(f"  {word}")
 
 
 def main() -> int:
@@ -86,11 +96,16 @@ def main() -> int:
     parser.add_argument(
         "--rtl", type=Path, default=RTL, help="another rtl/ folder; nothing is kept without --label"
     )
-    parser.add_argument("--label", choices=("now", "before"), help="where results.json keeps the counts")
+    parser.add_argument("--label", choices=("now", "before"), help="keep the counts in results.json so")
+    parser.add_argument("--costs", action="store_true", help="no flips: what the protections cost, by Yosys")
     parser.add_argument("--flip", help="one flip-flop, by name")
     parser.add_argument("--way", help="of --flip: of the frames (default: all)")
     parser.add_argument("--clock", type=int, help="of --flip: from frame 1's first beat (default: all)")
     args = parser.parse_args()
+    if args.costs:
+        report.save_costs(costs())
+        fill(report.README, "faults", report.docs_part())
+        return 0
     why = runner.missing("verilator")
     if why:
         print(f"faults: {why}", file=sys.stderr)
@@ -104,7 +119,7 @@ def main() -> int:
         return 2
     size = QUICK if args.quick else Size(args.flips, args.data, args.memory)
     size = replace(size, only=args.only, reading=args.reading)
-    whole = size == Size(args.flips, args.data, args.memory)
+    whole = size == Size() and args.seed == 1
     founds: list[Found] = []
     start = time.monotonic()
     try:

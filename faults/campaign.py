@@ -7,7 +7,7 @@ import random
 from collections import Counter, defaultdict
 from collections.abc import Callable, Iterable, Sequence
 from concurrent.futures import ThreadPoolExecutor
-from dataclasses import dataclass, field
+from dataclasses import asdict, dataclass, field
 from fnmatch import fnmatchcase
 from typing import Any
 
@@ -24,6 +24,7 @@ from faults.trials import (
     Model,
     Outcome,
     Trial,
+    Window,
     draw,
     run,
     window,
@@ -124,7 +125,7 @@ class Found:
 
     top: str
     seed: int
-    windows: dict[str, range]
+    windows: dict[str, Window]
     classes: dict[str, Row]
     modules: dict[str, dict[str, Row]]
     """Class -> module -> counts."""
@@ -136,7 +137,7 @@ class Found:
         """For results.json."""
         return {
             "seed": self.seed,
-            "clocks": {way: len(clocks) for way, clocks in self.windows.items()},
+            "clocks": {way: asdict(one) for way, one in self.windows.items()},
             "classes": {kind: row.table() for kind, row in self.classes.items()},
             "modules": {
                 kind: {name: _short(row.table()) for name, row in sorted(rows.items())}
@@ -150,12 +151,13 @@ def _short(table: dict[str, int]) -> dict[str, int]:
     return {name: value for name, value in table.items() if value or name in ("bits", "trials")}
 
 
-def plan(model: Model, size: Size, seed: int) -> tuple[dict[str, range], dict[str, list[Bit]], list[Trial]]:
+def plan(model: Model, size: Size, seed: int) -> tuple[dict[str, Window], dict[str, list[Bit]], list[Trial]]:
     """Clocks of the ways, bits by class, and the trials."""
-    windows = {}
-    for way in WAYS[model.top]:
-        end, read = window(model, way.name, seed)
-        windows[way.name] = range(end, read) if size.reading else range(end)
+    windows = {way.name: window(model, way.name, seed) for way in WAYS[model.top]}
+    anywhere: dict[str, tuple[range, ...]] = {way: (range(one.end),) for way, one in windows.items()}
+    parts = {way: one.parts for way, one in windows.items()}
+    if size.reading:
+        parts = anywhere = {way: (range(one.end, one.read),) for way, one in windows.items()}
     classes = classify(bit for bit in model.bits if fnmatchcase(bit.key, size.only))
     trials: list[Trial] = []
     rng = random.Random(f"{seed}/{model.top}")
@@ -163,10 +165,10 @@ def plan(model: Model, size: Size, seed: int) -> tuple[dict[str, range], dict[st
         bits = classes[kind]
         if size.bits is not None and size.bits < len(bits):
             bits = rng.sample(bits, size.bits)
-        trials += [draw(model, windows, bit, k, seed) for k in range(size.flips) for bit in bits]
+        trials += [draw(model.top, parts, bit, k, seed) for k in range(size.flips) for bit in bits]
     for kind, count in ((DATA, size.data), (MEMORY, size.memory)):
         bits = rng.sample(classes[kind], min(count, len(classes[kind])))
-        trials += [draw(model, windows, bit, 0, seed) for bit in bits]
+        trials += [draw(model.top, anywhere, bit, 0, seed) for bit in bits]
     return windows, classes, trials
 
 
@@ -199,7 +201,7 @@ def campaign(
 def count(
     model: Model,
     seed: int,
-    windows: dict[str, range],
+    windows: dict[str, Window],
     classes: dict[str, list[Bit]],
     outcomes: Iterable[tuple[Outcome, str]],
 ) -> Found:

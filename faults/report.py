@@ -53,6 +53,16 @@ def save(founds: list[Found], label: str, about: Mapping[str, Any], file: Path =
             part["cores"][found.top]["offenders"] = [
                 describe(found.top, pair) for pair in found.offenders[:MOST]
             ]
+    _write(results, file)
+
+
+def save_costs(rows: list[dict[str, Any]], file: Path = RESULTS) -> None:
+    """Put what the protections cost into results.json."""
+    results = json.loads(file.read_text()) if file.is_file() else {}
+    _write({**results, "costs": rows}, file)
+
+
+def _write(results: Mapping[str, Any], file: Path) -> None:
     order = ("now", "before", "costs")
     file.write_text(json.dumps({name: results[name] for name in order if name in results}, indent=1) + "\n")
 
@@ -97,7 +107,7 @@ def comparison(results: Mapping[str, Any]) -> str:
         rows = [
             [
                 cost["core"].removesuffix("_top"),
-                f"`{cost['protection']}`",
+                f"{cost['protection']}",
                 *(str(cost[k]) for k in ("LUT", "FF", "DSP", "BRAM")),
             ]
             for cost in costs

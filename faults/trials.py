@@ -11,12 +11,13 @@ import random
 import shutil
 import subprocess
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass, field
+from dataclasses import astuple, dataclass, field
 from importlib.metadata import version
 from pathlib import Path
 
-from faults.flipflops import Bit, bits_of
-from faults.frames import WAYS, Episode, episode
+from faults import flipflops
+from faults.flipflops import Bit
+from faults.frames import Episode, episode
 from sim.runner import _lock, verilator_folder
 from sim.sources import ROOT, RTL, reachable, sources
 
@@ -129,28 +130,30 @@ def build(top: str, rtl: Path = RTL) -> Model:
     """
     rtl = rtl.resolve()
     files = reachable(top, sources(rtl_dir=rtl))
-    folder = BUILD / f"{top}-{_digest(str(rtl.resolve()))[:8]}"
+    folder = BUILD / f"{top}-{_digest(str(rtl))[:8]}"
+    command = [
+        *("verilator", "--cc", "--exe", "--build", "-j", "2", "--prefix", "Vcore", "--top-module", top),
+        # flatten: all of the model's state in one structure
+        *("--flatten", "--vpi", "-O3", "--x-initial", "unique", "--x-assign", "unique"),
+        *("-Wno-fatal", "-Wno-lint", "-Wno-style", f"-I{rtl / 'include'}", "--Mdir", "obj"),
+        *("-CFLAGS", "-std=c++20", "-MAKEFLAGS", "CFG_CXXFLAGS_PCH_I=-include OPT_FAST=-O2"),
+        *("public.vlt", *map(str, files), str(BENCH)),
+    ]
+    read = [*files, *sorted((rtl / "include").glob("*.vh")), BENCH, Path(flipflops.__file__), Path(__file__)]
+    texts = [file.read_text(encoding="utf-8") for file in read]
+    stamp = _digest(texts, command, version("verilator"), version("pyosys"))
+    done, listed, program = folder / "stamp", folder / "bits.json", folder / "obj" / "Vcore"
     with _lock(folder.with_suffix(".lock"), fcntl.LOCK_EX):
-        bits = tuple(bits_of(top, rtl, folder))
-        kept = sorted({(bit.declared, bit.variable) for bit in bits})
-        lines = [f'public_flat_rw -module "{module}" -var "{variable}"' for module, variable in kept]
-        command = [
-            *("verilator", "--cc", "--exe", "--build", "-j", "2", "--prefix", "Vcore", "--top-module", top),
-            # flatten: all of the model's state in one structure
-            *("--flatten", "--vpi", "-O3", "--x-initial", "unique", "--x-assign", "unique"),
-            *("-Wno-fatal", "-Wno-lint", "-Wno-style", f"-I{rtl / 'include'}", "--Mdir", "obj"),
-            *("-CFLAGS", "-std=c++20", "-MAKEFLAGS", "CFG_CXXFLAGS_PCH_I=-include OPT_FAST=-O2"),
-            *("public.vlt", *map(str, files), str(BENCH)),
-        ]
-        texts = [file.read_text() for file in [*files, *sorted((rtl / "include").glob("*.vh")), BENCH]]
-        stamp, done = _digest(texts, lines, command, version("verilator")), folder / "stamp"
-        program = folder / "obj" / "Vcore"
-        if not (program.is_file() and done.is_file() and done.read_text() == stamp):
+        if not (done.is_file() and done.read_text() == stamp):
             done.unlink(missing_ok=True)
+            bits = flipflops.bits_of(top, rtl, folder)
+            listed.write_text(json.dumps([astuple(bit) for bit in bits]))
+            kept = sorted({(bit.declared, bit.variable) for bit in bits})
+            lines = [f'public_flat_rw -module "{module}" -var "{variable}"' for module, variable in kept]
             (folder / "public.vlt").write_text("\n".join(["`verilator_config", *lines]) + "\n")
             _compile(top, command, folder)
             done.write_text(stamp)
-    return Model(top, rtl, program, bits)
+        return Model(top, rtl, program, tuple(Bit(*one) for one in json.loads(listed.read_text())))
 
 
 def _compile(top: str, command: Sequence[str], folder: Path) -> None:
@@ -200,8 +203,25 @@ def _check(top: str, one: Episode, seen: Sequence[Seen]) -> None:
                 raise BenchFailed(f"{top}, {one.way.name}: frame {number}: {what}")
 
 
-def window(model: Model, way: str, seed: int) -> tuple[int, int]:
-    """Clocks from frame 1's first beat to the driver's seeing its end, and to the last result read.
+@dataclass(frozen=True)
+class Window:
+    """Clocks of frame 1, counted from where its first beat is offered."""
+
+    loaded: int
+    """The last beat was taken."""
+    end: int
+    """The driver has seen the end."""
+    read: int
+    """All results are read."""
+
+    @property
+    def parts(self) -> tuple[range, ...]:
+        """Where flips go in turn: the frame loads, its sums are drained, anywhere."""
+        return range(self.loaded), range(max(self.loaded - 8, 0), self.loaded + 64), range(self.end)
+
+
+def window(model: Model, way: str, seed: int) -> Window:
+    """The clocks of a way.
 
     Raises BenchFailed where a frame is not as the model says.
     """
@@ -209,14 +229,15 @@ def window(model: Model, way: str, seed: int) -> tuple[int, int]:
     answer = _call(model, one.plan, f"{way}-{seed}")
     seen = [Seen.of(line[1:]) for line in answer if line[0] == "FRAME"]
     _check(model.top, one, seen)
-    return next((int(line[1]), int(line[2])) for line in answer if line[0] == "WINDOW")
+    return next(Window(*map(int, line[1:])) for line in answer if line[0] == "WINDOW")
 
 
-def draw(model: Model, windows: Mapping[str, range], bit: Bit, number: int, seed: int) -> Trial:
-    """The `number`-th flip of a bit: way and clock. windows: clocks of each way."""
-    rng = random.Random(f"{seed}/{model.top}/{bit.name}/{number}")
-    way = rng.choice(WAYS[model.top]).name
-    return Trial(bit, way, rng.choice(windows[way]), seed)
+def draw(top: str, clocks: Mapping[str, Sequence[range]], bit: Bit, number: int, seed: int) -> Trial:
+    """The `number`-th flip of a bit. clocks: of each way the parts that take turns."""
+    rng = random.Random(f"{seed}/{top}/{bit.name}/{number}")
+    way = rng.choice(list(clocks))
+    parts = clocks[way]
+    return Trial(bit, way, rng.choice(parts[number % len(parts)]), seed)
 
 
 def run(

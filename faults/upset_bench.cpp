@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// A core, a careful driver in front of it, and one flipped bit a trial. upsets.py writes the plan that it reads.
+// A core, a careful driver in front of it, and one flipped bit a trial. frames.py and trials.py write the plan that it reads.
 //
 // The fault-free run comes once; at the clock of each trial the process forks, and the child flips its bit and goes on alone.
 // A child whose flip-flops, and everything that its driver has seen, are again those of the fault-free run ends there: nothing can follow.
@@ -33,7 +33,7 @@ namespace {
 
 struct Register {
   uint32_t address;
-  uint32_t word;  // to be written; or 1: a diagnostic number
+  uint32_t word;  // of the configuration; of a result, 1: a diagnostic number
 };
 struct Frame {
   bool push;
@@ -70,7 +70,8 @@ std::vector<Trial> trials;
 Vcore* core;
 uint64_t now = 0, history = 0xcbf29ce484222325ull;
 bool recording = true, child = false;
-uint64_t window_first = 0, window_end = 0, window_read = 0;
+// clocks of frame 1: begun, last beat taken, end seen, results read
+uint64_t window_first = 0, window_loaded = 0, window_end = 0, window_read = 0;
 
 // the fault-free run
 constexpr uint64_t EVERY = 16;
@@ -145,6 +146,7 @@ void tick() {
   if (taken) {
     sent++;
     pause_left = streaming->gap;
+    if (sent == streaming->beats.size() && streaming == &frames[1]) window_loaded = now;
   }
   now++;
   if (now % EVERY == 0) {
@@ -240,6 +242,7 @@ Seen run(const Frame& frame) {
         write_word(number["data_b"], static_cast<uint32_t>(frame.beats[index] >> 32));
         write_word(number["push"], index + 1 == frame.beats.size() ? number["push_last"] : 0);
       }
+      if (&frame == &frames[1]) window_loaded = now;
     } else {
       streaming = &frame;
       sent = 0;
@@ -383,36 +386,34 @@ void read_plan(const char* file) {
   std::stable_sort(trials.begin(), trials.end(), [](const Trial& a, const Trial& b) { return a.clock < b.clock; });
 }
 
-VerilatedContext* context;
-
+// Before the first clock.
 void fresh() {
   now = 0;
   history = 0xcbf29ce484222325ull;
   streaming = nullptr;
-  for (uint64_t clock = 0; clock < 1; clock++) {
-    core->rst = 1;
-    core->clk = 0;
-    core->s_axil_awvalid = core->s_axil_wvalid = core->s_axil_bready = core->s_axil_arvalid = core->s_axil_rready = 0;
-    core->s_axis_tvalid = core->s_axis_tlast = 0;
-    core->eval();
-  }
+  core->rst = 1;
+  core->clk = 0;
+  core->s_axil_awvalid = core->s_axil_wvalid = core->s_axil_bready = core->s_axil_arvalid = core->s_axil_rready = 0;
+  core->s_axis_tvalid = core->s_axis_tlast = 0;
+  core->eval();
 }
 
 }  // namespace
 
 int main(int count, char** arguments) {
   setvbuf(stdout, nullptr, _IOFBF, 1 << 16);
-  context = new VerilatedContext;
+  VerilatedContext* const context = new VerilatedContext;
   context->randReset(2);
   context->randSeed(1);
   core = new Vcore(context, "TOP");
-  if (count < 2) return 2;
+  if (count != 2) return 2;
   core->eval();
   std::vector<uint8_t> start(state_bytes(), state_bytes() + sizeof(*core->rootp));
   read_plan(arguments[1]);
   fresh();
   episode();
-  printf("WINDOW %llu %llu\n", static_cast<unsigned long long>(window_end - window_first),
+  printf("WINDOW %llu %llu %llu\n", static_cast<unsigned long long>(window_loaded - window_first),
+         static_cast<unsigned long long>(window_end - window_first),
          static_cast<unsigned long long>(window_read - window_first));
   for (const Seen& seen : wanted) {
     printf("FRAME");

@@ -22,6 +22,7 @@ from sim.sources import RTL, reachable, sources
 CONTROL = "relnav_mutant"
 CONTROL_BITS = 24
 CLOCK = "clk"
+PARALLEL = " // synopsys parallel_case"
 POOL = 40
 """Mutants that Yosys is asked for at least; a sample is their beginning."""
 
@@ -177,14 +178,15 @@ def _others(module: str) -> list[Path]:
     return [file for file in reachable(module, sources()) if file.stem != module]
 
 
-def _yosys(folder: Path, name: str, commands: Sequence[str]) -> None:
-    """Run commands in a Yosys of their own (pyosys) in `folder`."""
+def _yosys(folder: Path, name: str, commands: Sequence[str], seconds: int = 600) -> None:
+    """Run commands in a Yosys of their own (pyosys) in `folder`, with so many seconds of the processor."""
     script, log = folder / f"{name}.ys", folder / f"{name}.log"
     script.write_text("\n".join(commands) + "\n")
-    code = f"from pyosys import libyosys as y; y.run_pass('script {script.name}', y.Design())"
+    limit = f"import resource as r; r.setrlimit(r.RLIMIT_CPU, ({seconds}, {seconds}))"
+    code = f"{limit}; from pyosys import libyosys as y; y.run_pass('script {script.name}', y.Design())"
     with log.open("w") as out:
         done = subprocess.run(
-            ["timeout", "120", sys.executable, "-c", code],
+            [sys.executable, "-c", code],
             cwd=folder,
             stdout=out,
             stderr=subprocess.STDOUT,
@@ -218,8 +220,36 @@ def _parse(line: str, number: int, values: Values, part: int) -> Mutant:
     )
 
 
-def _possible(line: str) -> bool:
-    """Not on a clock, which would come late in every mutant, nor on a memory's first contents, a constant."""
+_CELL = re.compile(r"^ *cell \S+ (\S+)$")
+_CONSTANT = re.compile(r"^ *connect (\S+) (\d+)(?:'([01xz]+))?$")
+
+
+def _constants(netlist: str) -> dict[tuple[str, str], str]:
+    """Cell and port -> bits, the most significant first, of the ports of an RTLIL text that are constants."""
+    found, cell = {}, ""
+    for line in netlist.splitlines():
+        if match := _CELL.match(line):
+            cell = match[1].removeprefix("\\")
+        elif match := _CONSTANT.match(line):
+            bits = f"{int(match[2]):032b}" if match[3] is None else match[3].rjust(int(match[2]), match[3][0])
+            found[cell, match[1].removeprefix("\\")] = bits
+    return found
+
+
+def _possible(line: str, constants: Mapping[tuple[str, str], str]) -> bool:
+    """Not on a clock, which would come late in every mutant, nor on a memory's first contents, a constant.
+
+    Nor what changes nothing: a constant tied to its own value, an inversion on a condition that is constant.
+    """
+    words = dict(zip(line.split()[1::2], line.split()[2::2], strict=False))
+    place = words["-cell"].removeprefix("\\"), words["-port"].removeprefix("\\")
+    bits = constants.get(place, "")[::-1]
+    same, other = bits[int(words["-portbit"]) :][:1], bits[int(words.get("-ctrlbit", 0)) :][:1]
+    value = words["-mode"][-1]
+    if words["-mode"].startswith("const") and same == value:
+        return False
+    if words["-mode"].startswith("cnot") and other in ("0", "1") and other != value:
+        return False
     clocked = any(f" {place} " in line for place in (f"-wire {CLOCK}", "-port CLK", f"-port {CLOCK}"))
     return not clocked and "meminit" not in line.split(" -cell ")[-1].split()[0]
 
@@ -249,13 +279,14 @@ def make(
             f"read_verilog -I{RTL / 'include'} {original.name}",
             *(f"read_verilog -lib -I{RTL / 'include'} {file}" for file in _others(module)),
             f"proc -norom {module}",
-            *[f"opt_expr {module}", f"opt_clean {module}"] * 3,
+            *[f"opt_expr -mux_undef {module}", f"opt_clean {module}"] * 3,
             "write_rtlil netlist.il",
         ]
         # a quarter more, for those on the clock
         some = each if count is None else each + each // 4 + 20
         _yosys(part, "list", [*read, f"mutate -list {some} -seed {seed + place} -o list.txt {module}"])
-        lines = [line for line in (part / "list.txt").read_text().splitlines() if _possible(line)]
+        constants = _constants((part / "netlist.il").read_text())
+        lines = [line for line in (part / "list.txt").read_text().splitlines() if _possible(line, constants)]
         listed.append(lines[:each])
     rounds = zip_longest(*([(place, line) for line in lines] for place, lines in enumerate(listed)))
     turns = [turn for turns in rounds for turn in turns if turn is not None][:count]
@@ -271,7 +302,9 @@ def make(
             apply.append(f"select -module {module}; add -input {CONTROL} {CONTROL_BITS}; select -clear")
         apply += [f"select {module}", "write_verilog -noattr -selected netlist.v"]
         _yosys(folder / f"part{place}", "apply", apply)
-        netlist = (folder / f"part{place}" / "netlist.v").read_text()
+        # where two branches match, the simulators take the first: so must the proofs
+        netlist = (folder / f"part{place}" / "netlist.v").read_text().replace(PARALLEL, "")
+        (folder / f"part{place}" / "netlist.v").write_text(netlist)
         netlists.append(re.sub(rf"\bmodule {module}\b", f"module {module}__{place}", netlist, count=1))
     file = folder / original.name
     file.write_text(_stand_in(module, text, header, chosen, netlists))
@@ -291,15 +324,15 @@ def proved_equivalent(module: str, mutant: Mutant, folder: Path, seconds: int = 
 
 def _proved(module: str, mutant: Mutant, folder: Path, seconds: int, flat: bool) -> bool:
     part = folder / f"part{mutant.part}"
-    others = [f"read_verilog -overwrite -I{RTL / 'include'} {file}" for file in _others(module)]
-    commands = [
-        "read_rtlil netlist.il",
-        mutant.line.replace("mutate ", f"mutate -ctrl {CONTROL} 1 1 ", 1),
-    ]
+    box = "" if flat else "-lib "
+    commands = ["read_verilog netlist.v"]
+    commands += [f"read_verilog {box}-I{RTL / 'include'} {file}" for file in _others(module)]
+    commands += [f"hierarchy -top {module}", "proc -norom"]
     if flat:
-        commands += [*others, f"hierarchy -top {module}", "setattr -mod -unset keep_hierarchy *"]
-        commands += [f"setattr -unset keep_hierarchy {module}/t:*", "proc", "flatten", "opt_clean"]
+        kept = ["setattr -mod -unset keep_hierarchy *", f"setattr -unset keep_hierarchy {module}/t:*"]
+        commands += [*kept, "flatten"]
     commands += [
+        "opt_clean",
         f"memory_collect {module}",
         f"memory_map {module}",
         f"simplemap {module}/t:$dff",
@@ -308,25 +341,27 @@ def _proved(module: str, mutant: Mutant, folder: Path, seconds: int, flat: bool)
         "rename -hide t:$* t:$_DFF_P_ %d",  # expose cuts at cells that have names,
         "rename -hide w:* i:* %d o:* %d",  # and makes outputs of nets that have some
         "cd ..",
-        # the instances' ports as wide as their parameters say
-        *([] if flat else others),
-        f"hierarchy -top {module}",
         f"opt_clean -purge {module}",  # single flip-flops that nothing reads
         f"expose -evert {module}",
         f"copy {module} gold",
         f"copy {module} gate",
     ]
-    for name, value in (("gold", 0), ("gate", 1)):
-        commands += [f"cd {name}", f"delete -port w:{CONTROL}", f"connect -set {CONTROL} 1'{value}", "cd .."]
+    for name, value in (("gold", 0), ("gate", mutant.number)):
+        commands += [
+            f"cd {name}",
+            f"delete -port w:{CONTROL}",
+            f"connect -set {CONTROL} {CONTROL_BITS}'d{value}",
+            "cd ..",
+        ]
     commands += [
         "miter -equiv -make_outputs gold gate miter",
         "flatten miter",
         "opt -fast miter",
-        f"sat -verify -prove trigger 0 -timeout {seconds} miter",
+        "sat -verify -prove trigger 0 miter",
     ]
     name = "flat" if flat else "cut"
     try:
-        _yosys(part, name, commands)
+        _yosys(part, name, commands, seconds)
     except RuntimeError:
         return False
     return "SUCCESS!" in (part / f"{name}.log").read_text(errors="replace")

@@ -13,9 +13,11 @@ import hashlib
 import json
 import math
 import os
+import re
 import resource
 import shutil
 import signal
+import subprocess
 import sys
 import threading
 import time
@@ -30,6 +32,9 @@ from mutate.netlist import CONTROL
 from sim import runner
 
 OPTIONS = ["-x", "-q", "-p", "no:cacheprovider", "--no-header", "--tb=short", "-o", "addopts="]
+CLOCK = Path(__file__).parent / "clock.v"
+PLAYED = ("replay_bench", "gram_array_bench", "gram_ring_bench")
+"""Benches that give a clock, and reset if there is one, until `done`; with FLIPS in the environment, more."""
 WRITTEN = ("+results=", "+response=")
 BUSY = 20.0
 """Seconds of the clock on the wall that one of the processor may take."""
@@ -178,6 +183,26 @@ def _end_leaves(process: int) -> None:
             os.kill(process, signal.SIGKILL)
 
 
+def _play(build: Any, plusargs: Sequence[str]) -> None:
+    """A bench of PLAYED on Icarus without Python, whose start takes longer than many a simulation."""
+    simulation = build.folder / "alone.vvp"
+    stamp = build.folder / "stamp"
+    if not simulation.is_file() or simulation.stat().st_mtime < stamp.stat().st_mtime:
+        command = ["iverilog", "-g2005", "-o", f"{simulation}", "-s", build.top, "-s", "relnav_clock"]
+        command += [f"-I{folder}" for folder in build.includes]
+        command += [f"-P{build.top}.{name}={value}" for name, value in build.parameters.items()]
+        command += [f"-D{name}={value}" for name, value in build.defines.items()]
+        top = next(file for file in build.sources if file.stem == build.top)
+        command += (
+            ["-DRELNAV_RST"] if re.search(r"^ *input +wire +rst\b", top.read_text(), re.MULTILINE) else []
+        )
+        command += [f"-DRELNAV_TOP={build.top}", str(CLOCK), *map(str, build.sources)]
+        subprocess.run(command, check=True)
+    done = subprocess.run(["vvp", "-n", str(simulation), "-none", *plusargs], check=False)
+    if done.returncode:
+        raise runner.SimulationFailed(f"the simulation ended with {done.returncode}")
+
+
 def _prepare(number: int, limit: float, watch: _Watch, right: Path | None) -> None:
     """Every simulation gets the plusarg that chooses the mutant, and `limit` seconds of the processor.
 
@@ -188,6 +213,7 @@ def _prepare(number: int, limit: float, watch: _Watch, right: Path | None) -> No
 
     def run(self: Any, folder: Path, bench: str, cases: Any, plusargs: Sequence[str], seed: int) -> Any:
         watch.simulations += 1
+        alone = self.simulator == "icarus" and bench in PLAYED and "FLIPS" not in os.environ
         written = [Path(word.partition("=")[2]) for word in plusargs if word.startswith(WRITTEN)]
         digest = hashlib.sha256(f"{watch.test} {watch.simulations}".encode()).hexdigest()[:16]
         kept = right / digest if right is not None and written else None
@@ -199,7 +225,10 @@ def _prepare(number: int, limit: float, watch: _Watch, right: Path | None) -> No
         start, found = processor(), None
         resource.setrlimit(resource.RLIMIT_CPU, (math.ceil(start + limit), resource.RLIM_INFINITY))
         try:
-            found = simulate(self, folder, bench, cases, [*plusargs, f"+{CONTROL}={number}"], seed)
+            if alone:
+                _play(self, [*plusargs, f"+{CONTROL}={number}"])
+            else:
+                found = simulate(self, folder, bench, cases, [*plusargs, f"+{CONTROL}={number}"], seed)
         except AssertionError:
             if reader is None or not reader.ended:
                 raise

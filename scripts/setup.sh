@@ -137,9 +137,9 @@ python_packages() {
     fi
     say "installing Python packages (a few minutes the first time)"
     local pip=("$venv/bin/python" -m pip --disable-pip-version-check install -qq)
-    if ! "${pip[@]}" -c constraints.txt -e '.[sim,dev,synth,formal,package]'; then
+    if ! "${pip[@]}" -c constraints.txt -e '.[sim,dev,synth,formal,package,docs]'; then
         say "the pinned versions could not be installed; trying the newest that pyproject.toml allows"
-        "${pip[@]}" -e '.[sim,dev,synth,formal,package]' || die "pip could not install the packages (is the network reachable?)"
+        "${pip[@]}" -e '.[sim,dev,synth,formal,package,docs]' || die "pip could not install the packages (is the network reachable?)"
     fi
     libpython
     printf '%s\n' "$wanted" >$stamp

@@ -224,8 +224,8 @@ relnav_error ivisnav_solve(ivisnav *device, const ivisnav_frame *frame, double v
 
             result->condition = relnav_sqrt((double)relnav_float(square));
         }
-        return error;
+        return relnav_settle(&device->core, error);
     }
-    error = ivisnav_read(device, result);
+    error = relnav_settle(&device->core, ivisnav_read(device, result));
     return error == RELNAV_OK && result->count != frame->count ? RELNAV_WRONG_FRAME : error;
 }

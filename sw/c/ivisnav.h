@@ -97,8 +97,9 @@ relnav_error ivisnav_read_raw(const ivisnav *device, ivisnav_raw *raw);
 /** ivisnav_read_raw() in the caller's units. */
 relnav_error ivisnav_read(const ivisnav *device, ivisnav_result *result);
 
-/** Choose, configure, push, wait, read. RELNAV_WRONG_FRAME where the core counted other rows. After an error the result is all zeros
- * but for the flags, and the condition where that is the reason, of a frame that the core gave up. polls: of relnav_wait(). */
+/** Choose, configure, push, wait, read; relnav_settle() after an error, so that the next frame may come at once.
+ * RELNAV_WRONG_FRAME: the core counted other rows. After an error the result is all zeros but for the flags, and the condition where that is the reason, of a frame
+ * that the core gave up. polls: of relnav_wait(). */
 relnav_error ivisnav_solve(ivisnav *device, const ivisnav_frame *frame, double variance, uint32_t polls, ivisnav_result *result);
 
 #ifdef __cplusplus

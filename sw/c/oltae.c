@@ -214,8 +214,8 @@ relnav_error oltae_solve(oltae *device, const oltae_frame *frame, uint32_t confi
     error = relnav_wait(&device->core, polls);
     if (error != RELNAV_OK) {
         result->flags = relnav_frame_flags(&device->core);
-        return error;
+        return relnav_settle(&device->core, error);
     }
-    error = oltae_read(device, result);
+    error = relnav_settle(&device->core, oltae_read(device, result));
     return error == RELNAV_OK && result->count != frame->count ? RELNAV_WRONG_FRAME : error;
 }

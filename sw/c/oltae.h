@@ -98,8 +98,9 @@ relnav_error oltae_read_raw(const oltae *device, oltae_raw *raw);
 /** oltae_read_raw() in the caller's units. */
 relnav_error oltae_read(const oltae *device, oltae_result *result);
 
-/** Choose, configure, push, wait, read. RELNAV_WRONG_FRAME where the core counted other points. After an error the result is
- * all zeros but for the flags of a frame that the core gave up. polls: of relnav_wait(). */
+/** Choose, configure, push, wait, read; relnav_settle() after an error, so that the next frame may come at once.
+ * RELNAV_WRONG_FRAME: the core counted other points. After an error the result is all zeros but for the flags of a frame
+ * that the core gave up. polls: of relnav_wait(). */
 relnav_error oltae_solve(oltae *device, const oltae_frame *frame, uint32_t config, double variance, uint32_t polls,
                          oltae_result *result);
 

@@ -151,6 +151,14 @@ relnav_error relnav_recover(const relnav_core *core)
     return write_set(core);
 }
 
+relnav_error relnav_settle(const relnav_core *core, relnav_error error)
+{
+    if (error == RELNAV_WATCHDOG || error == RELNAV_UPSET || error == RELNAV_TIMEOUT) {
+        (void)relnav_recover(core); /* where that fails, the next configuration says so */
+    }
+    return error;
+}
+
 relnav_error relnav_set(relnav_core *core, uint32_t config, uint32_t frac, uint32_t variance, double weight_scale)
 {
     if ((relnav_status(core) & OLTAE_STATUS_BUSY) != 0) {

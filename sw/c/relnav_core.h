@@ -155,6 +155,9 @@ void relnav_soft_reset(const relnav_core *core);
  * again. The frame has to be given again. RELNAV_NOT_TAKEN. */
 relnav_error relnav_recover(const relnav_core *core);
 
+/** relnav_recover() after one of these three errors, nothing after any other. Returns the error. */
+relnav_error relnav_settle(const relnav_core *core, relnav_error error);
+
 /** Set CONFIG (where there is one), FRAC and VARIANCE, as register words. RELNAV_BUSY while a frame is open, RELNAV_NOT_TAKEN. */
 relnav_error relnav_set(relnav_core *core, uint32_t config, uint32_t frac, uint32_t variance, double weight_scale);
 

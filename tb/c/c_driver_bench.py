@@ -403,6 +403,17 @@ def busy(bench: Bench) -> None:
     assert bench.call("push_frame", byref(given), byref(scale)) == "BUSY"
     assert bench.solve(given)[0] == "BUSY"
     bench.shared("soft_reset")
+    assert bench.solve(given, polls=c_uint32(1))[0] == "TIMEOUT"
+    assert bench.solve(given)[0] == "OK"
+    for name in ("TIMEOUT", "BUSY", "UPSET", "OK"):
+        bench.prepare(given)
+        assert bench.shared("begin_push") == "OK"
+        bench.shared("push", c_uint64(0), 0)  # an open frame, which only a recovery drops
+        assert bench.shared("settle", library.ERRORS.index(name)) == name
+        busy = MAP.STATUS.BUSY.get(bench.shared("status"))
+        assert busy == (name in ("BUSY", "OK"))
+        bench.shared("soft_reset")
+    bench.shared("soft_reset")
     bench.line.lies = {MAP.STATUS.ADDRESS: lambda word: word & ~MAP.STATUS.PUSH_READY.mask}
     assert bench.shared("begin_push") == "BUSY"
     bench.line.lies = {}

@@ -9,6 +9,7 @@ from typing import Any
 import cocotb
 from cocotb.triggers import FallingEdge, RisingEdge
 
+from coverage import points
 from tb.common import axil, clocks
 from tb.common.core_bench import CoreBench
 
@@ -279,3 +280,57 @@ async def busy_writes(bench: CoreBench) -> None:
         assert bench.words(got) == bench.words(expected) and got.flag_names == ("BUSY_WRITE",)
         bench.last = got
         await raised_and_cleared(bench, {"BUSY_WRITE"})
+
+
+async def upset_in_every_state(bench: CoreBench) -> None:
+    """What a protection notices ends the frame, wherever it is: flag UPSET, IDLE; the next frame is right."""
+    dut = bench.dut
+    states = [0, LOADING, COMPUTE, *([VERIFY] if await verifies(bench) else []), DONE]
+    for state in states * 2:
+        await bench.solve(bench.good())
+        if state == 0:
+            await bench.drive(bench.DRIVER.acknowledge)
+        elif state != DONE:
+            frame = bench.good(bench.LEAST + 2)
+            bench.bus.source.pause = True
+            await bench.drive(lambda d, f=frame: bench.prepare(d, f).feed(bench.beats(f)))
+            await bench.reached(bench.rng.randrange(1, bench.BEATS * 2))
+            bench.bus.source.pause = state == LOADING
+        while bench.state() != state:
+            await FallingEdge(dut.clk)
+        await clocks.tick(dut, bench.rng.randrange(20))
+        await FallingEdge(dut.clk)
+        assert bench.state() == state
+        dut.core.upsets.rows.value = 1  # as if the loader and the array had counted differently
+        await clocks.tick(dut, 2)
+        assert bench.state() == 0
+        bench.bus.source.pause = False
+        await clocks.tick(dut, 12 * bench.BEATS)  # the rest of an open frame is swallowed
+        assert bench.state() == 0
+        assert await bench.flags() == ({"UPSET"}, {"UPSET"})
+        status = await bench.drive(bench.DRIVER.status)
+        assert state in (0, DONE) or not any(getattr(status, f"{name}_ready") for name in bench.GROUPS)
+        await bench.drive(bench.DRIVER.soft_reset)
+        await bench.drive(lambda d: (d.clear_flags(), d.clear_interrupts()))
+        await bench.solve(bench.good())
+        assert await bench.flags() == (set(), set())
+
+
+async def flags_cleared_while_busy(bench: CoreBench) -> None:
+    """A flag that is raised and cleared in mid-computation does not come again, and disturbs nothing."""
+    dut, name = bench.dut, bench.LOCKED[0]
+    for state in [COMPUTE, *([VERIFY] if await verifies(bench) else [])]:
+        frame = bench.good()
+        ticket = await bench.drive(lambda d, f=frame: bench.prepare(d, f).feed(bench.beats(f)))
+        while bench.state() != state:
+            await FallingEdge(dut.clk)
+        await bench.drive(lambda d: d.write(getattr(bench.registers, name), 1))
+        assert (await bench.flags())[0] == {"BUSY_WRITE"}
+        await bench.drive(lambda d: d.clear_flags())
+        assert bench.state() == state
+        points.event(dut._name, points.STATES[state], "flags cleared")
+        assert (await bench.flags())[0] == set()
+        assert await bench.drive(lambda d, t=ticket: d.wait(t, 200))
+        got = await bench.standing()
+        assert bench.words(got) == bench.words(bench.expected(frame))
+        bench.last = got

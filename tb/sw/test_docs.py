@@ -17,8 +17,10 @@ PAGES = [
     *sorted((ROOT / "docs").rglob("*.md")),
     ROOT / "rtl/README.md",
     ROOT / "tb/README.md",
+    ROOT / "sw/c/README.md",
 ]
 MARKERS = {
+    "sw/c/README.md": {"size"},
     "README.md": {
         "sim",
         "proximity",

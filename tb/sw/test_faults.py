@@ -23,7 +23,7 @@ from sim.runner import missing
 from sim.sources import ROOT, RTL
 
 STEERS = re.compile(
-    r"(^|[._])(valid|tag|state|busy|address|index|mark|lane|slot|run|done|last|pending|live)(_\d+)?$"
+    r"[._](valid|tag|state|busy|address|index|mark|pending|live)(_\d+)?$|\.(run|lane|slot|done|last)(_\d+)?$"
 )
 """Names of what steers."""
 
@@ -161,12 +161,10 @@ def test_offences(one: Outcome, kind: str, bad: list[str]) -> None:
 
 
 def _draw(model: Model, some: Sequence[Bit], count: int) -> list[Trial]:
-    clocks = {"stream": range(window(model, "stream", 1)[0])}
-    ways = {"oltae_top": (WAYS["oltae_top"][0],)}
-    chosen = random.Random(1).sample(list(some), count)
-    with pytest.MonkeyPatch.context() as patch:
-        patch.setattr("faults.trials.WAYS", ways)
-        return [draw(model, clocks, bit, 0, 1) for bit in chosen]
+    parts = {"stream": window(model, "stream", 1).parts}
+    return [
+        draw(model.top, parts, bit, k, 1) for k, bit in enumerate(random.Random(1).sample(list(some), count))
+    ]
 
 
 def test_a_sample_does_nothing_that_may_not_be(model: Model) -> None:
@@ -196,7 +194,7 @@ def test_a_flip_acts_and_comes_again(model: Model) -> None:
         (["--flip", "core.x"], "--flip needs --core"),
         (["--rtl", "no/such"], "is no folder"),
         (["--core", "oltae", "--flip", "core.nothing"], "has no flip-flop core.nothing"),
-        (["--core", "oltae", "--flip", "core.states.state[0]", "--way", "no"], "has no way no"),
+        (["--core", "oltae", "--flip", "core.points[0]", "--way", "no"], "has no way no"),
     ],
 )
 def test_bad_arguments(model: Model, arguments: list[str], message: str) -> None:

@@ -159,9 +159,9 @@ def test_what_the_register_file_relies_on(core: str) -> None:
     flags = found["FLAGS"].FIELDS
     assert list(flags.items()) == list(found["FRAME_FLAGS"].FIELDS.items())
     assert [field.low for field in flags.values()] == [
-        bit for bit in range(10) if core == "oltae" or bit not in (6, 9)
+        bit for bit in range(11) if core == "oltae" or bit not in (6, 9)
     ]
-    assert [int(state) for state in CORES[core].State] == [0, 1, 2, 3]
+    assert [int(state) for state in CORES[core].State] == [0, 1, 2, 3, 4]
 
 
 @cores

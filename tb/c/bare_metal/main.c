@@ -168,6 +168,8 @@ static void check_oltae(void)
     CHECK(same(&result.determinant, &oltae_determinant, sizeof result.determinant));
     CHECK(mock_read(NULL, offsetof(oltae_registers, VARIANCE)) == OLTAE_VARIANCE_WORD);
     CHECK(mock_read(NULL, offsetof(oltae_registers, FRAC)) == (OLTAE_FRAC_WANTED & OLTAE_FRAC_FRAC));
+    CHECK(oltae_solve(&device, &frame, 0, 0.0, 1, &result) == RELNAV_TIMEOUT && result.count == 0);
+    CHECK(oltae_solve(&device, &frame, 0, 0.0, POLLS, &result) == RELNAV_OK);
     CHECK(oltae_solve(&device, &frame, OLTAE_CONFIG_REAPPLY, 0.0, POLLS, &result) == RELNAV_NOT_BUILT);
 
     frame.a = relnav_floats(oltae_a_float);
@@ -243,6 +245,8 @@ static void check_ivisnav(void)
     CHECK(same(&result.condition, &ivisnav_condition, sizeof result.condition));
     CHECK(mock_read(NULL, offsetof(ivisnav_registers, VARIANCE)) == IVISNAV_VARIANCE_WORD);
 
+    CHECK(ivisnav_solve(&device, &frame, 0.0, 1, &result) == RELNAV_TIMEOUT && result.count == 0);
+    CHECK(ivisnav_solve(&device, &frame, 0.0, POLLS, &result) == RELNAV_OK);
     CHECK(ivisnav_choose(&frame, RELNAV_FRAC_AUTO, RELNAV_FRAC_AUTO, &scale, &row) == RELNAV_OK);
     CHECK(ivisnav_beats(&frame) == IVISNAV_BEATS && ivisnav_fill(&frame, &scale, buffer, IVISNAV_BEATS) == RELNAV_OK);
     CHECK(same(buffer, ivisnav_wanted, sizeof ivisnav_wanted) && buffer[IVISNAV_BEATS] == 0);

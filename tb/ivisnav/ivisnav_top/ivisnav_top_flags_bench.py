@@ -53,6 +53,16 @@ async def every_flag(dut: Any) -> None:
     await core_tests.busy_writes(bench)
 
 
+@cocotb.test()
+async def upset_in_every_state(dut: Any) -> None:
+    await core_tests.upset_in_every_state(await Bench(dut, 9).begin())
+
+
+@cocotb.test()
+async def flags_cleared_while_busy(dut: Any) -> None:
+    await core_tests.flags_cleared_while_busy(await Bench(dut, 10).begin())
+
+
 def thin(bench: Bench) -> QuantisedRows:
     """Nine rows that the core refuses for their conditioning alone."""
     numpy = np.random.default_rng(1)

@@ -57,6 +57,16 @@ async def every_flag(dut: Any) -> None:
     await not_built(bench)
 
 
+@cocotb.test()
+async def upset_in_every_state(dut: Any) -> None:
+    await core_tests.upset_in_every_state(await Bench(dut, 9).begin())
+
+
+@cocotb.test()
+async def flags_cleared_while_busy(dut: Any) -> None:
+    await core_tests.flags_cleared_while_busy(await Bench(dut, 10).begin())
+
+
 async def not_built(bench: Bench) -> None:
     """What this build has not is named by the write and by every frame run so; the full build has it all."""
     wish = Oltae.CONFIG.encode(WEIGHTED=1, REAPPLY=1, COVARIANCE=1)

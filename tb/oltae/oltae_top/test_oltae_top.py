@@ -81,7 +81,7 @@ def test_longest_frames(build: str) -> None:
     ]
     if full:
         frames.insert(2, random_frame(rng, LONGEST, True, "random"))
-        frames.append(QuantisedFrame(corner, corner, heaviest, -64))
+        frames += [QuantisedFrame(corner, corner, heaviest, -64), random_frame(rng, 4, True, "pose")]
     config = CoreConfig(covariance=full)
     check(
         frames,
