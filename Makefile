@@ -20,13 +20,16 @@ MUTANTS ?=
 # --quick: a few cases, nothing kept
 BENCH_ARGS ?=
 
+# of `make examples`: all by default
+EXAMPLES ?=
+
 # --quick; --core oltae; --only 'axil_slave.*'
 FAULTS_ARGS ?=
 
 # modules to prove, all by default
 FORMAL_ARGS ?=
 
-.PHONY: help setup setup-c sim sim-ivisnav test c soak waves synth timing package bench formal docs site verification mutate faults coverage lint format clean distclean
+.PHONY: help setup setup-c sim sim-ivisnav examples test c soak waves synth timing package bench formal docs site verification mutate faults coverage lint format clean distclean
 
 help: ## this list
 	@awk -F ':.*## ' '/^[a-z%<>-]+:.*## / { printf "  make %-14s %s\n", $$1, $$2 }' $(MAKEFILE_LIST)
@@ -67,10 +70,13 @@ synth: setup ## area on Xilinx 7 with Yosys, into syn/results.json and the READM
 timing: setup ## place and route on ECP5-85k with nextpnr (slow), into syn/results.json and the README
 	@$(BIN)/python syn/timing.py
 
+examples: setup ## run the examples; pictures into out/examples, tables into examples/README.md (EXAMPLES=landing)
+	@$(BIN)/python -m scripts.examples $(EXAMPLES)
+
 docs: setup ## fill README and docs/ from the last runs (after make sim sim-ivisnav), build the site in out/site
 	@$(BIN)/python scripts/readme_sim.py && $(BIN)/python scripts/latency.py && \
 	  $(BIN)/python scripts/ivisnav_sheet.py && $(BIN)/python scripts/decisions.py && \
-	  $(BIN)/python scripts/verification.py && $(BIN)/python scripts/data_sheets.py && \
+	  $(BIN)/python scripts/verification.py && $(BIN)/python scripts/oltae_sheet.py && \
 	  $(BIN)/python scripts/figures.py && $(BIN)/python scripts/plots.py && $(BIN)/python scripts/wavedrom_svg.py
 	@$(MAKE) --no-print-directory site
 
@@ -106,7 +112,7 @@ format: setup ## format the Python files
 
 clean: ## remove what was built; .venv stays
 	rm -rf build out .pytest_cache .mypy_cache .ruff_cache
-	find bench coverage faults formal package mutate sim sw syn tb scripts -name __pycache__ -prune -exec rm -rf {} +
+	find bench coverage examples faults formal package mutate sim sw syn tb scripts -name __pycache__ -prune -exec rm -rf {} +
 
 distclean: clean ## remove .venv too
 	rm -rf .venv sw/*.egg-info

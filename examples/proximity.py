@@ -105,7 +105,7 @@ def picture(flown: Run, found: Array, sigma: Array, off: dict[str, tuple[Array, 
         axes.plot(flown.times, 1e3 * flown.truth[:, k], color=TRUTH, linewidth=3.0, label="true")
         axes.plot(flown.times, 1e3 * found[:, k], ".", color=CORE, label="iVisNav core")
         axes.set(title=title.split(",")[0], ylabel=title)
-        axes.legend(loc="center")
+    panels[0][0].legend(loc="center")
     colours = (MUTED, CORE, DOUBLE, TRUTH)
     for axes, quantity, title in zip(panels[1], (0, 1), ("place, mm", "turn, mrad"), strict=True):
         for colour, (name, both) in zip(colours, off.items(), strict=True):

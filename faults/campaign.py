@@ -130,8 +130,8 @@ class Found:
     modules: dict[str, dict[str, Row]]
     """Class -> module -> counts."""
     offenders: list[tuple[Outcome, str]]
-    silent_data: Counter[str]
-    """Register of data -> silent wrong results."""
+    silent: dict[str, Counter[str]]
+    """Class (data, memory) -> register -> silent wrong results."""
 
     def table(self) -> dict[str, Any]:
         """For results.json."""
@@ -143,7 +143,7 @@ class Found:
                 kind: {name: _short(row.table()) for name, row in sorted(rows.items())}
                 for kind, rows in self.modules.items()
             },
-            "silent data": dict(self.silent_data.most_common()),
+            **{f"silent {kind}": dict(some.most_common()) for kind, some in self.silent.items()},
         }
 
 
@@ -211,14 +211,15 @@ def count(
     for kind, bits in classes.items():
         for bit in bits:
             modules[kind].setdefault(bit.module, Row()).bits += 1
-    offenders, silent = [], Counter[str]()
+    offenders = []
+    silent = {kind: Counter[str]() for kind in (DATA, MEMORY)}
     for one, kind in outcomes:
         rows[kind].add(one, kind)
         modules[kind][one.trial.bit.module].add(one, kind)
         if offences(one, kind):
             offenders.append((one, kind))
-        if kind == DATA and one.verdict == SILENT:
-            silent[one.trial.bit.key] += 1
+        if kind in silent and one.verdict == SILENT:
+            silent[kind][one.trial.bit.key] += 1
     offenders.sort(key=lambda pair: (pair[1], pair[0].trial.bit.name, pair[0].trial.clock))
     return Found(model.top, seed, windows, rows, modules, offenders, silent)
 

@@ -131,9 +131,9 @@ def text(founds: list[Found]) -> str:
     cores = {found.top: found.table() for found in founds}
     lines = [class_table(cores), ""]
     for found in founds:
-        if found.silent_data:
-            most = ", ".join(f"{name} {count}" for name, count in found.silent_data.most_common(12))
-            lines += [f"{found.top}, silent wrong results by data registers: {most}", ""]
+        for kind, some in found.silent.items():
+            most = ", ".join(f"{name} {count}" for name, count in some.most_common(12))
+            lines += [f"{found.top}, silent wrong results from {kind}: {most or 'none'}", ""]
         if found.offenders:
             lines.append(f"{found.top}, registers with what may not be (bits: clocks hit):")
         for kind, key, words, pairs in by_register(found):

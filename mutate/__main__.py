@@ -4,18 +4,16 @@
 from __future__ import annotations
 
 import argparse
-import contextlib
 import multiprocessing
 import os
 import sys
 import time
 from collections.abc import Sequence
 from functools import partial
-from pathlib import Path
 
 from mutate import report
-from mutate.benches import first_tests, modules
-from mutate.campaign import Result, probe_folder, run_module
+from mutate.benches import modules
+from mutate.campaign import Result, run_module
 
 MINUTES = 8.0
 """That the sample of all modules is to take where the processors are free: ten with what is not foreseen."""
@@ -45,13 +43,6 @@ def sample(names: Sequence[str], rows: Sequence[report.Row], seconds: float) -> 
             break
         best = found
     return best
-
-
-def _probe(bench: Path) -> None:
-    """Ahead of the mutants, since many modules share a bench; a module says itself that its probe fails."""
-    os.nice(5)
-    with contextlib.suppress(RuntimeError):
-        probe_folder(bench)
 
 
 def _try(job: tuple[str, int | None], deep: bool, forget: bool) -> Result:
@@ -86,9 +77,6 @@ def main() -> int:
     start = time.monotonic()
     results: list[Result] = []
     with multiprocessing.get_context("fork").Pool(args.jobs, maxtasksperchild=1) as pool:
-        benches = sorted({bench for name in names for bench in first_tests(name)})
-        for _ in pool.imap_unordered(_probe, benches, 1):
-            pass
         for one in pool.imap_unordered(
             partial(_try, deep=not args.quick, forget=args.forget), counts.items(), 1
         ):

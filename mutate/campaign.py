@@ -3,6 +3,7 @@
 
 from __future__ import annotations
 
+import fcntl
 import hashlib
 import json
 import re
@@ -152,6 +153,12 @@ def probe_folder(bench: Path) -> dict[str, Probe]:
     """
     folder = BUILD / "probes" / bench.name
     folder.mkdir(parents=True, exist_ok=True)
+    with (folder / "lock").open("w") as lock:  # modules that are tried at the same time share benches
+        fcntl.flock(lock, fcntl.LOCK_EX)
+        return _probe(bench, folder)
+
+
+def _probe(bench: Path, folder: Path) -> dict[str, Probe]:
     file = folder / "probe.json"
 
     def signature(names: Iterable[str]) -> str:
@@ -229,6 +236,8 @@ class _Tests:
                 fate.seconds = round(fate.seconds + outcome.seconds, 2)
                 if outcome.state != "passed" or not outcome.short:
                     break
+            if outcome.state == "busy":
+                raise RuntimeError(f"the machine is too busy: {test} has not ended, nor used {limit:.0f} s")
             self.tried[test] += 1
             if outcome.state != "passed":
                 fate.state = {"failed": "killed", "timeout": "timeout"}.get(outcome.state, "invalid")

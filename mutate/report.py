@@ -70,11 +70,11 @@ def save(results: Sequence[Result]) -> None:
     rows = {one["module"]: one for one in load()}
     for result in results:
         new, old = _dated(row(result)), rows.get(result.module)
-        if result.error or untried(result) or (old and old["current"] and _larger(old, new)):
+        if result.error or nothing(result) or (old and old["current"] and _larger(old, new)):
             continue
         rows[result.module] = new
     found = [rows[name] for name in modules() if name in rows]
-    TABLE.write_text(table(found))
+    TABLE.write_text(table(found, [name for name in modules() if name not in rows]))
     for one in found:
         one.pop("current", None)
     RESULTS.write_text(json.dumps({"seed": SEED, "goal": GOAL, "modules": found}, indent=1) + "\n")
@@ -84,22 +84,22 @@ def _larger(old: Row, new: Row) -> bool:
     return bool(old["mutants"] > new["mutants"] and old["percent"] <= new["percent"])
 
 
-def untried(one: Result) -> bool:
+def nothing(one: Result) -> bool:
     """Whether nothing came of it: no mutant at all, or none that compiles."""
     return len(one.fates) == one.count("invalid")
 
 
 def below(one: Result) -> bool:
     """Whether a module fails `make mutate`."""
-    return one.percent < GOAL or bool(one.error) or untried(one)
+    return one.percent < GOAL or bool(one.error) or nothing(one)
 
 
 def _line(words: Sequence[object]) -> str:
     return f"| {' | '.join(map(str, words))} |"
 
 
-def table(rows: Sequence[Row]) -> str:
-    """results.md."""
+def table(rows: Sequence[Row], untried: Sequence[str] = ()) -> str:
+    """results.md. untried: modules without a row."""
     heads = ["module", "mutants", "killed", "by time", "by cores only", "equivalent", "invalid", "survivors"]
     counts = ["mutants", "killed", "by_time", "by_cores", "equivalent", "invalid", "survivors"]
     lines = [_line([*heads, "killed %"]), "|---" * 9 + "|"]
@@ -114,6 +114,8 @@ def table(rows: Sequence[Row]) -> str:
         "Made by `make mutate`; [README.md](README.md) says what the columns are.",
         "\n".join(lines),
     ]
+    if untried:
+        parts.append(f"Not tried yet: {', '.join(untried)}.")
     opened = [f"* {one['module']}: `{fate['key']}` {fate['wire']}" for one in rows for fate in one["open"]]
     if opened:
         parts += ["## Survivors", "\n".join(line.rstrip() for line in opened)]

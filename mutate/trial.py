@@ -47,7 +47,8 @@ class Outcome:
     """What tests said, until the first failure."""
 
     state: str = "none"
-    """passed, failed, timeout, invalid (does not compile), none (no test ran)."""
+    """passed, failed, timeout (of the processor), busy (so is the machine), invalid (does not compile),
+    none (no test ran)."""
     test: str = ""
     """The test that failed."""
     text: str = ""
@@ -90,8 +91,10 @@ class _Watch:
         if report.failed and self.outcome.state != "failed":
             text = report.longreprtext
             self.outcome.state, self.outcome.test = "failed", report.nodeid
-            if self.late or "the simulation did not end in time" in text:
+            if self.late:
                 self.outcome.state = "timeout"
+            elif "the simulation did not end in time" in text:
+                self.outcome.state = "busy"
             elif "SimulationFailed: building " in text:
                 self.outcome.state = "invalid"
             self.outcome.text = text[-4000:]
@@ -277,7 +280,7 @@ def attempt(
     if child == 0:
         code = 1
         try:
-            os.setsid()
+            os.setpgid(0, 0)  # not a session: of its own it would lose the caller's low priority
             os.environ["RELNAV_REPLACE"] = " ".join(f"{module}={file}" for module, file in replaced.items())
             os.environ["RELNAV_BUILD"] = str(folder)
             resource.setrlimit(resource.RLIMIT_CORE, (0, 0))
@@ -299,7 +302,7 @@ def attempt(
         _, _, used = os.wait4(child, 0)
     seconds = used.ru_utime + used.ru_stime
     if not done:
-        return Outcome("timeout", seconds=seconds)
+        return Outcome("busy", seconds=seconds)
     if not answer.is_file():
         text = (folder / "pytest.log").read_text(errors="replace")[-4000:]
         return Outcome("invalid", text=text, seconds=seconds)

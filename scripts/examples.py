@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Run the examples and fill examples/README.md: what each prints, and small pictures of those without recorded data.
+"""Run the examples and fill examples/README.md: what each prints, pictures where no recorded data are used.
 
 python -m scripts.examples [NAME ...]
 """
@@ -55,7 +55,9 @@ def shrink(source: Path, target: Path) -> None:
     height = round(picture.height * WIDTH / picture.width)
     picture = picture.resize((WIDTH, height), Image.Resampling.LANCZOS)
     for colours in (128, 96, 64, 48, 32, 16):
-        picture.quantize(colours, dither=Image.Dither.NONE).save(target, optimize=True)
+        picture.quantize(colours, Image.Quantize.MAXCOVERAGE, dither=Image.Dither.NONE).save(
+            target, optimize=True
+        )
         if target.stat().st_size <= LARGEST:
             return
     raise SystemExit(f"{target.name} has more than {LARGEST} bytes")

@@ -26,7 +26,7 @@ libraries=("${libraries[@]%/}")
 
 check "ruff check" ruff check --quiet .
 check "ruff format" ruff format --check --quiet .
-check "mypy --strict" mypy --no-error-summary sw sim syn bench faults formal mutate coverage package tb/soak
+check "mypy --strict" mypy --no-error-summary sw sim syn bench faults formal mutate coverage package examples tb/soak
 if [ ${#verilog[@]} -gt 0 ]; then
     check "verible" verible-verilog-lint --rules_config .rules.verible_lint "${verilog[@]}" "${wrappers[@]}"
     check "verilog, module by module" python scripts/lint_verilog.py "${libraries[@]}"

@@ -79,7 +79,9 @@ def on_files(files: Files, config: MkDocsConfig) -> Files:
     for file in list(files):
         if file.src_dir == config.docs_dir:
             files.remove(file)
-    waiting = {ROOT / path for path in leaves(config.nav)} | set((ROOT / "docs").rglob("*.md"))
+    waiting = {ROOT / path for path in [*leaves(config.nav), *map(str, config.extra_css)]} | set(
+        (ROOT / "docs").rglob("*.md")
+    )
     wanted: set[Path] = set()
     folders: set[Path] = set()
     while waiting:

@@ -71,19 +71,10 @@ def proofs(results: Results, module: str) -> tuple[str, str]:
     return f"{passed} of {len(groups)}{mark}", f"{caught} of {broken}{mark}" if broken else "-"
 
 
-def fates(row: Results) -> dict[str, int]:
-    """Number of mutants by what became of them."""
-    counted: dict[str, int] = {}
-    for fate in row["fates"]:
-        counted[fate["state"]] = counted.get(fate["state"], 0) + 1
-    return counted
-
-
 def killed_of(row: Results) -> tuple[int, int]:
     """(killed, killable)."""
-    count = fates(row)
-    killed = count.get("killed", 0) + count.get("timeout", 0)
-    return killed, killed + count.get("survived", 0)
+    killed: int = row["killed"]
+    return killed, killed + row["survivors"]
 
 
 def mutants(results: Results, module: str) -> str:

@@ -359,7 +359,7 @@ class _Build:
             raise SimulationFailed(
                 f"{self.top} on {self.simulator}: {what}\n{_tail(log)}\n(all of it: {log})"
             )
-        if self.coverage:
+        if self.coverage and self.is_current(self.stamp):  # no source was written meanwhile
             self.coverage.mkdir(parents=True, exist_ok=True)
             shutil.move(run / "coverage.dat", self.coverage / f"{self.top}-{uuid.uuid4().hex}.dat")
         return trace

@@ -61,7 +61,7 @@ module result_store #(
   always @(posedge clk) begin
     if (write_valid && !compare) memory[address] <= write_data;
     read_data <= read_valid && !write_valid ? memory[address] : 32'd0;
-    differs <= compare && write_valid && memory[address] != write_data;
+    differs <= compare && write_valid && memory[address] != write_data && !rst;
   end
 
 endmodule

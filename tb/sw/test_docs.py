@@ -33,7 +33,7 @@ MARKERS = {
         "area",
         "timing",
     },
-    "docs/oltae.md": {"latency"},
+    "docs/oltae.md": {"latency", "accuracy", "area"},
     "docs/ivisnav.md": {"latency", "accuracy", "area"},
 }
 

@@ -109,6 +109,24 @@ def test_a_small_sample_is_the_beginning_of_a_larger_one(tmp_path: Path) -> None
     assert few == more[:5]
 
 
+def test_what_changes_nothing_is_left_out() -> None:
+    """Constants tied to themselves, inversions on a condition that is constant, clocks."""
+    text = (
+        "  cell $mux $procmux$1\n    connect \\A 0\n    connect \\B 4'1010\n    connect \\S \\select\n  end\n"
+    )
+    constants = netlist._constants(text)
+    assert constants == {("$procmux$1", "A"): "0" * 32, ("$procmux$1", "B"): "1010"}
+
+    def possible(mode: str, port: str, bit: int, more: str = "") -> bool:
+        line = f"mutate -mode {mode} -module m -cell $procmux$1 -port {port} -portbit {bit}{more}"
+        return netlist._possible(line, constants)
+
+    assert not possible("const1", "B", 1) and possible("const1", "B", 0)
+    assert not possible("const0", "A", 3) and possible("const1", "A", 3) and possible("const0", "S", 0)
+    assert not possible("cnot1", "B", 1, " -ctrlbit 2") and possible("cnot0", "B", 1, " -ctrlbit 2")
+    assert possible("inv", "B", 1) and not possible("inv", "CLK", 0)
+
+
 def test_bench_files() -> None:
     """A bench is made of its folder and of what it imports from tb/, through other files too."""
     found = {str(file.relative_to(TB)) for file in bench_files(TB / "arith" / "float_add")}

@@ -68,7 +68,8 @@ def prompted(text: str) -> list[tuple[str, str]]:
 
 def blocks(page: Path) -> list[Block]:
     """Everything on a page that can be run."""
-    text, found = page.read_text(encoding="utf-8"), []
+    text = page.read_text(encoding="utf-8")
+    found: list[tuple[str, str, str | None]] = []
     fenced = FENCE.findall(text)
     for index, (language, body) in enumerate(fenced):
         following = fenced[index + 1] if index + 1 < len(fenced) else ("", "")

@@ -53,13 +53,13 @@ def results(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
     """Results of each tool for the module mux4, the mutants' of an earlier text."""
     here, source = "mux4", fingerprint("mux4")
     group = {"module": here, "source": source, "status": "PASS", "broken": 3, "caught": 2}
-    fates = [{"state": state} for state in ("killed", "timeout", "survived", "equivalent", "invalid")]
+    mutants = {"module": here, "source": "older", "killed": 2, "survivors": 1, "equivalent": 4}
     told = {
         "formal": {**FORMAL, "groups": [group]},
-        "mutate": {"goal": 95.0, "modules": [{"module": here, "source": "older", "fates": fates}]},
+        "mutate": {"goal": 95.0, "modules": [mutants]},
         "coverage": {
             "totals": {kind: [99, 1, 100] for kind in ("line", "branch", "toggle")},
-            "tests": {"arith/aligner": 4, "arith/sum_normaliser": 2, "arith/float_add": 3, "sw": 50},
+            "tests": {"arith/reciprocal": 6, "arith/float_add": 3, "sw": 50},
             "functional": {"oltae_top.n": {"hit": 1, "bins": 2, "holes": ["65535"]}},
             "modules": {
                 here: {"source": source, "line": [3, 0, 4], "branch": [0, 0, 0], "toggle": [6, 2, 8]}
@@ -71,13 +71,15 @@ def results(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
         (tmp_path / tool).mkdir()
         (tmp_path / tool / "results.json").write_text(json.dumps(content))
     monkeypatch.setattr(verification, "ROOT", tmp_path)
+    folders = [verification.TB / "arith" / name for name in ("float_add", "reciprocal")]
+    monkeypatch.setattr(verification, "first_tests", lambda module: folders)
     return tmp_path
 
 
 def test_what_the_page_makes_of_results(results: Path) -> None:
     text = verification.text()
     cells = rows(text)["mux4"]
-    assert cells[0].startswith("9 in ")
+    assert cells[0] == "9 in float_add, reciprocal"
     assert cells[1:] == ["1 of 1", "2 of 3", "2 of 3\\*", "75.0 %", "-", "100.0 %", "6 of 18"]
     assert "8 flips in 2 bits: silent 2, hang 4; next frame wrong 0, hang 6" in text
     assert "1 of 2; 2 of 3 broken copies caught; 8 of 9 assertions seen to fail" in text

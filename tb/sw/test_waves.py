@@ -75,7 +75,8 @@ def drawn(drawing: Path) -> list[dict[str, str]]:
     """Signals of every column of a diagram; lanes of data, and clk, are left out."""
     lanes: dict[str, list[str]] = {}
     for lane in yaml.safe_load(drawing.read_text())["signal"]:
-        name, columns, labels = lane["name"], [], iter(lane.get("data", ()))
+        name, labels = lane["name"], iter(lane.get("data", ()))
+        columns: list[str] = []
         for prefix in PREFIXES:
             name = name.removeprefix(prefix)
         labelled = "data" in lane
