@@ -70,7 +70,7 @@ module result_store_properties #(
     was_read <= read_valid && !read_wait;
     was_mine <= read_index == index;
     expected <= seen;
-    was_compared <= verify && write_valid && write_index == index;
+    was_compared <= verify && write_valid && write_index == index && !rst;
     was_other <= write_data != seen;
   end
 
