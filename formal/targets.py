@@ -109,7 +109,7 @@ STORE_FAULTS = faults(
     ("waits_for_writes", "assign read_wait = write_valid;", "assign read_wait = write_valid && read_valid;"),
     ("committed_read", "{write_bank == compare, write_index}", "{write_bank, write_index}"),
     ("difference_told", "{write_bank == compare, write_index}", "{!write_bank, write_index}"),
-    ("difference_told", "memory[address] != write_data;", "memory[address] < write_data;"),
+    ("difference_told", "memory[address] != write_data", "memory[address] < write_data"),
     ("no_difference", "differs <= compare && write_valid &&", "differs <= compare &&"),
     ("same_words", "if (write_valid && !compare)", "if (write_valid)"),
     ("committed_read", ": read_index < LAST_FIRST ?", ": read_index < LAST_FIRST - 1 ?"),
