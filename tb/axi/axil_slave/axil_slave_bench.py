@@ -9,7 +9,7 @@ from typing import Any
 import cocotb
 from cocotb.triggers import ClockCycles, FallingEdge, ReadOnly, gather
 
-from tb.common import axil, clocks
+from tb.common import axil, clocks, netlist
 
 WORDS = 64  # mapped words of the 1024
 
@@ -231,7 +231,7 @@ def copies(dut: Any) -> list[tuple[Any, int]]:
     return [(signal, bit) for signal in signals for bit in range(len(signal))]
 
 
-@cocotb.test(timeout_time=5, timeout_unit="ms")
+@cocotb.test(timeout_time=5, timeout_unit="ms", skip=netlist.REPLACED)
 async def voted_upsets(dut: Any) -> None:
     """One voted flip-flop after the other flips, in every second clock, under traffic: nobody sees it."""
     bus, registers, monitor = await setup(dut, wait_share=0.3)
@@ -276,7 +276,7 @@ async def voted_upsets(dut: Any) -> None:
     assert registers.writes == WORDS + 400 and registers.reads == 400
 
 
-@cocotb.test(timeout_time=5, timeout_unit="ms")
+@cocotb.test(timeout_time=5, timeout_unit="ms", skip=netlist.REPLACED)
 async def held_upsets(dut: Any) -> None:
     """A bit of a held write address, or its parity, flips before its use: SLVERR and no access.
 

@@ -11,7 +11,7 @@ import cocotb
 from cocotb.triggers import FallingEdge, ReadOnly, gather
 
 from tb.axi.registers import CORE, MAP, STORED, Bench, merged
-from tb.common import axil, clocks
+from tb.common import axil, clocks, netlist
 
 
 @cocotb.test(timeout_time=2, timeout_unit="ms")
@@ -317,7 +317,7 @@ async def flip(dut: Any, signal: Any, bit: int) -> None:
     signal.value = int(signal.value) ^ 1 << bit
 
 
-@cocotb.test(timeout_time=5, timeout_unit="ms")
+@cocotb.test(timeout_time=5, timeout_unit="ms", skip=netlist.REPLACED)
 async def configuration_upsets(dut: Any) -> None:
     """A flip of any configuration bit or its parity raises UPSET until it is written again."""
     bench = await Bench(dut).begin()
@@ -349,7 +349,7 @@ async def configuration_upsets(dut: Any) -> None:
                 assert await bench.read(MAP.FLAGS.ADDRESS) == 0
 
 
-@cocotb.test(timeout_time=5, timeout_unit="ms")
+@cocotb.test(timeout_time=5, timeout_unit="ms", skip=netlist.REPLACED)
 async def flag_upsets(dut: Any) -> None:
     """A flag that rises or is lost by a flip is never alone: UPSET is beside it."""
     bench = await Bench(dut).begin()
@@ -373,7 +373,7 @@ async def flag_upsets(dut: Any) -> None:
                     assert seen == expected
 
 
-@cocotb.test(timeout_time=5, timeout_unit="ms")
+@cocotb.test(timeout_time=5, timeout_unit="ms", skip=netlist.REPLACED)
 async def voted_upsets(dut: Any) -> None:
     """No flip of one voted flip-flop is seen: pulses, pushes, interrupt, frame counter."""
     bench = await Bench(dut).begin()
@@ -401,7 +401,7 @@ async def voted_upsets(dut: Any) -> None:
     assert bench.pulses == {"soft_reset": 0, "acknowledge": 0}
 
 
-@cocotb.test(timeout_time=5, timeout_unit="ms")
+@cocotb.test(timeout_time=5, timeout_unit="ms", skip=netlist.REPLACED)
 async def held_upsets(dut: Any) -> None:
     """Any bit of a held write flips before its use: SLVERR, no register changes, UPSET."""
     bench = await Bench(dut).begin()
