@@ -114,21 +114,27 @@ def test_what_is_left_out_is_tested_elsewhere() -> None:
         assert test and (ROOT / test).exists(), test
 
 
-@pytest.fixture(scope="module")
-def folders(tmp_path_factory: pytest.TempPathFactory) -> dict[Path, Path]:
-    """A working folder for each page: its files stay from block to block."""
-    made = {}
-    for page in PAGES:
-        folder = tmp_path_factory.mktemp(page.stem)
-        (folder / "docs").symlink_to(ROOT / "docs")
-        (folder / ".venv").mkdir()
-        (folder / ".venv" / "bin").symlink_to(Path(sys.executable).parent)
-        made[page] = folder
-    return made
+@pytest.fixture
+def folder(tmp_path: Path) -> Path:
+    """A working folder with what a page's commands expect in a checkout."""
+    (tmp_path / "docs").symlink_to(ROOT / "docs")
+    (tmp_path / ".venv").mkdir()
+    (tmp_path / ".venv" / "bin").symlink_to(Path(sys.executable).parent)
+    return tmp_path
 
 
-@pytest.mark.parametrize("block", [b for b in BLOCKS if to_run(b).strip()], ids=str)
-def test_block(block: Block, folders: dict[Path, Path]) -> None:
+@pytest.mark.parametrize(
+    "page", sorted({b.page for b in BLOCKS if to_run(b).strip()}), ids=lambda page: page.stem
+)
+def test_page(page: Path, folder: Path) -> None:
+    """The blocks of a page in their order: files stay from block to block."""
+    for block in BLOCKS:
+        if block.page == page and to_run(block).strip():
+            run(block, folder)
+
+
+def run(block: Block, folder: Path) -> None:
+    """A block does what its page says."""
     path = os.pathsep.join([str(Path(sys.executable).parent), os.environ["PATH"]])
     environment = os.environ | {"PATH": path, "COLUMNS": "200"}
     text = to_run(block)
@@ -140,7 +146,7 @@ def test_block(block: Block, folders: dict[Path, Path]) -> None:
     }[block.language]
     done = subprocess.run(
         command,
-        cwd=folders[block.page],
+        cwd=folder,
         env=environment,
         capture_output=True,
         text=True,
