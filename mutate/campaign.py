@@ -17,7 +17,7 @@ from typing import Any
 from mutate import netlist
 from mutate.benches import TB, core_tests, first_tests, modules
 from mutate.trial import attempt, processor, relative, warm
-from sim.sources import ROOT
+from sim.sources import ROOT, fingerprint
 
 BUILD = ROOT / "build" / "mutate"
 _IMPORT = re.compile(r"^from (tb[\w.]*) import (\([^)]*\)|[^\n]*)", re.MULTILINE)
@@ -73,13 +73,6 @@ class Result:
     def percent(self) -> float:
         """Killed of those that can be."""
         return 100 * self.count("killed", "timeout") / self.judged if self.judged else 100.0
-
-
-def fingerprint(module: str) -> str:
-    """Of a module's text without comments and blanks."""
-    text = re.sub(r"//[^\n]*|/\*.*?\*/", "", netlist.module_file(module).read_text(), flags=re.DOTALL)
-    lines = [" ".join(line.split()) for line in text.splitlines()]
-    return hashlib.sha256("\n".join(lines).encode()).hexdigest()[:12]
 
 
 def equivalents(module: str) -> dict[str, str]:

@@ -17,7 +17,7 @@ from dataclasses import dataclass
 from itertools import zip_longest
 from pathlib import Path
 
-from sim.sources import RTL, reachable, sources
+from sim.sources import RTL, module_file, reachable, sources
 
 CONTROL = "relnav_mutant"
 CONTROL_BITS = 24
@@ -74,14 +74,6 @@ class Mutant:
         """What names it in equivalents.toml; the same as long as the module's file stays the same."""
         place = f"{self.cell} {self.port}[{self.bit}]" + ("" if self.control is None else f"/{self.control}")
         return " ".join([self.mode, place, *(f"{name}={value}" for name, value in self.values)])
-
-
-def module_file(module: str) -> Path:
-    """The file of a module of rtl/. Raises SystemExit where there is none."""
-    for file in sources():
-        if file.stem == module:
-            return file
-    raise SystemExit(f"mutate: there is no module {module} in rtl/")
 
 
 def _blank(text: str) -> str:

@@ -10,7 +10,8 @@ from pathlib import Path
 from typing import Any
 
 from mutate.benches import CORES, first_tests, modules
-from mutate.campaign import PROVED, SEED, Result, fingerprint
+from mutate.campaign import PROVED, SEED, Result
+from sim.sources import fingerprint
 
 HERE = Path(__file__).parent
 RESULTS = HERE / "results.json"

@@ -34,14 +34,18 @@ READINGS = 4  # of the same registers, of which two in a row have to agree
 Value = TypeVar("Value")
 
 
-class Bus(Protocol):
-    """What the driver needs of the hardware; all calls block, errors are the bus's own exceptions."""
+class Registers(Protocol):
+    """The registers of a core; all calls block, errors are the bus's own exceptions."""
 
     def read(self, address: int) -> int:
         """The register word at a byte address of the core."""
 
     def write(self, address: int, value: int) -> None:
         """Write a whole register word."""
+
+
+class Bus(Registers, Protocol):
+    """What the driver needs of the hardware."""
 
     def stream(self, beats: Sequence[int]) -> None:
         """Give one frame's 64-bit beats to the AXI-Stream, tlast with the last.
@@ -68,6 +72,13 @@ def join(low: IntArray, high: IntArray) -> npt.NDArray[np.uint64]:
     """64-bit beats of two arrays of the same shape, of which the low 32 bits count."""
     halves = [(part.astype(np.int64) & 0xFFFFFFFF).astype(np.uint64) for part in (low, high)]
     return (halves[1] << np.uint64(32)) | halves[0]
+
+
+def push_beat(bus: Registers, beat: int, *, last: bool = False) -> None:
+    """One beat by the registers DATA_A, DATA_B and PUSH, which are the same in every core."""
+    bus.write(Oltae.DATA_A.ADDRESS, beat & 0xFFFFFFFF)
+    bus.write(Oltae.DATA_B.ADDRESS, beat >> 32)
+    bus.write(Oltae.PUSH.ADDRESS, Oltae.PUSH.encode(LAST=last))
 
 
 class CoreDriver(Generic[StatusT]):
@@ -216,9 +227,7 @@ class CoreDriver(Generic[StatusT]):
 
     def push(self, beat: int, *, last: bool = False) -> None:
         """One beat by the registers."""
-        self.write(self.MAP.DATA_A, beat & 0xFFFFFFFF)
-        self.write(self.MAP.DATA_B, beat >> 32)
-        self.write(self.MAP.PUSH, self.MAP.PUSH.encode(LAST=last))
+        push_beat(self.bus, beat, last=last)
 
     def wait(self, ticket: int, polls: int = POLLS) -> bool:
         """Wait for the frame of this ticket; True when it was solved, False when it failed (see FRAME_FLAGS).

@@ -10,6 +10,8 @@ from __future__ import annotations
 
 import json
 import os
+import random
+from collections.abc import Mapping
 from typing import Any
 
 from cocotb.triggers import FallingEdge
@@ -23,6 +25,15 @@ def registers(text: str) -> dict[str, int]:
         for name, width in (word.split() for word in names.split(",")):
             found[f"{path.strip()}.{name}"] = int(width)
     return found
+
+
+Flip = tuple[int, int, str, int]
+
+
+def draw(rng: random.Random, widths: Mapping[str, int], frames: int, last: int) -> list[Flip]:
+    """For FLIPS: a random bit in each of the frames 1 to `frames`, 2 to `last` clocks after its clear."""
+    names = rng.choices(list(widths), k=frames)
+    return [(k + 1, rng.randint(2, last), name, rng.randrange(widths[name])) for k, name in enumerate(names)]
 
 
 def register(player: Any, name: str) -> Any:

@@ -11,9 +11,6 @@ A run is a row of episodes, each after a hard reset and each made from (core, se
 from __future__ import annotations
 
 import argparse
-import contextlib
-import io
-import logging
 import random
 import sys
 import tempfile
@@ -26,6 +23,7 @@ from pathlib import Path
 
 import numpy as np
 import numpy.typing as npt
+from relnav.rtlsim import quiet
 
 from coverage import points
 from sim.runner import (
@@ -86,7 +84,7 @@ def play(
         with (folder / f"{name}.hex").open("w") as file:
             for episode in episodes:
                 file.write("\n".join(getattr(episode, name)) + "\n")
-    with _quiet():
+    with quiet():
         build_and_test(
             "soak_harness",
             [*sources(rtl_dir=rtl), HERE / "soak_harness.v"],
@@ -181,17 +179,6 @@ def soak(
             break
     report.compared = time.monotonic() - begun - report.simulated
     return report
-
-
-@contextlib.contextmanager
-def _quiet() -> Iterator[None]:
-    before = logging.root.manager.disable
-    logging.disable(logging.WARNING)
-    try:
-        with contextlib.redirect_stdout(io.StringIO()):
-            yield
-    finally:
-        logging.disable(before)
 
 
 # ----------------------------------------------------------------------------------------------- command line

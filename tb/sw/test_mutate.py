@@ -15,7 +15,7 @@ from mutate.benches import TB, core_tests, first_tests, modules
 from mutate.campaign import PROVED, Fate, Result, bench_files, fingerprint
 from mutate.trial import _Reader
 from sim.runner import missing
-from sim.sources import ROOT, RTL, reachable, sources
+from sim.sources import ROOT, RTL, module_file, reachable, sources
 
 VALUES = (("WIDTH", "5"),)
 
@@ -23,7 +23,7 @@ VALUES = (("WIDTH", "5"),)
 def test_headers() -> None:
     """Every module's header is understood, and other defaults move no line."""
     for name in modules():
-        text = netlist.module_file(name).read_text()
+        text = module_file(name).read_text()
         header = netlist.read_header(text, name)
         assert header.ports
         other = netlist.with_values(text, header, dict.fromkeys(header.parameters, "7"))

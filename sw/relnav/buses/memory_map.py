@@ -19,6 +19,7 @@ from typing import Protocol
 import numpy as np
 import numpy.typing as npt
 
+from relnav.driver import Registers, push_beat
 from relnav.errors import BackendError, one_line
 from relnav.registers import Oltae as Common
 
@@ -111,14 +112,8 @@ class MappedBus:
         self.registers.close()
 
 
-class _Registers(Protocol):
-    def read(self, address: int) -> int: ...
-
-    def write(self, address: int, value: int) -> None: ...
-
-
-def push_beats(bus: _Registers, beats: Sequence[int]) -> None:
-    """One frame's beats by DATA_A, DATA_B and PUSH, which are the same in every core.
+def push_beats(bus: Registers, beats: Sequence[int]) -> None:
+    """One frame's beats, once the core takes pushes.
 
     Raises BackendError where the core takes no push: it stays busy, or a stream's frame is open.
     """
@@ -128,9 +123,7 @@ def push_beats(bus: _Registers, beats: Sequence[int]) -> None:
     else:
         raise BackendError("the core takes no push: it is busy or a stream's frame is open")
     for number, beat in enumerate(beats, 1):
-        bus.write(Common.DATA_A.ADDRESS, beat & 0xFFFFFFFF)
-        bus.write(Common.DATA_B.ADDRESS, beat >> 32)
-        bus.write(Common.PUSH.ADDRESS, Common.PUSH.encode(LAST=number == len(beats)))
+        push_beat(bus, beat, last=number == len(beats))
 
 
 class DevMemBus(MappedBus):

@@ -101,7 +101,7 @@ def _run(
     keep = False
     try:
         job.write(folder / job.JOB, core, frames, options, feed)
-        with _quiet():
+        with quiet():
             runner.build_and_test(
                 HARNESS,
                 sources,
@@ -161,7 +161,7 @@ def _sources(runner: Any, rtl: Path, top: str) -> list[Path]:
 
 
 @contextlib.contextmanager
-def _quiet() -> Iterator[None]:
+def quiet() -> Iterator[None]:
     """Nothing of the simulation on the terminal: its output is in the log."""
     before = logging.root.manager.disable
     logging.disable(logging.WARNING)

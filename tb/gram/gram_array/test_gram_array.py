@@ -14,7 +14,7 @@ from relnav import words
 from relnav.model.gram import DRAIN_ORDER, GramArray, exact_moments, pair_components
 
 from sim.runner import build_and_test, sources
-from tb.common.flips import registers
+from tb.common.flips import draw, registers
 from tb.common.vectors import corners, random_value, to_signed
 
 HERE = Path(__file__).resolve().parent
@@ -287,11 +287,8 @@ def test_what_a_flipped_register_changes_is_noticed(simulator: str, tmp_path: Pa
         pytest.skip("registers are flipped in Icarus")
     rng = random.Random(7)
     frames = [Frame(random_points(rng, 6, 0, True), True, checks=1) for _ in range(FLIPPED + 1)]
-    names = rng.choices(list(REGISTERS), k=FLIPPED)
     # clocks after the clear: the last beat is taken in the 34th, the last pair comes 32 later
-    flips = [
-        [k + 1, rng.randint(2, 66), name, rng.randrange(REGISTERS[name])] for k, name in enumerate(names)
-    ]
+    flips = draw(rng, REGISTERS, FLIPPED, 66)
     (tmp_path / "stimulus.txt").write_text(stimulus(frames))
     build_and_test(
         "gram_array_player",

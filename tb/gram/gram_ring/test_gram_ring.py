@@ -13,7 +13,7 @@ import pytest
 from relnav.model.gram_ring import DRAIN_ORDER, exact_sums, gram_ring
 
 from sim.runner import build_and_test, sources
-from tb.common.flips import registers
+from tb.common.flips import draw, registers
 from tb.common.vectors import corners, random_value, to_signed
 
 HERE = Path(__file__).resolve().parent
@@ -278,11 +278,8 @@ def test_what_a_flipped_register_changes_is_noticed(simulator: str, tmp_path: Pa
         pytest.skip("registers are flipped in Icarus")
     rng = random.Random(7)
     frames = [Frame(random_rows(rng, 5), checks=1) for _ in range(FLIPPED + 1)]
-    names = rng.choices(list(REGISTERS), k=FLIPPED)
     # clocks after the clear: the last beat is taken in the 36th, the last item comes 47 later
-    flips = [
-        [k + 1, rng.randint(2, 82), name, rng.randrange(REGISTERS[name])] for k, name in enumerate(names)
-    ]
+    flips = draw(rng, REGISTERS, FLIPPED, 82)
     (tmp_path / "stimulus.txt").write_text(stimulus(rng, frames))
     build_and_test(
         "gram_ring_player",
