@@ -4,7 +4,7 @@
 //   upset  ends the frame in the same clock: flag UPSET, no results, IDLE
 //   give_up  a clock later: the loader swallows what is left of an open frame
 //
-//   lost       the state machine awaits a frame's end that the loader will not bring, or that `give_up` took away by itself
+//   lost       the state machine awaits a frame's end that the loader will not bring
 //   rows       the array took another number of rows than the loader gave
 //   mismatch   the exact sums disagree with the beats                      (VERIFY)
 //   unchecked  a pass ends and no sums were compared with the beats        (VERIFY)
@@ -52,7 +52,7 @@ module core_upsets #(
   reg settled;
 
   always @(posedge clk) begin
-    lost  <= loading && (!open || give_up);
+    lost  <= loading && !open;
     rows  <= computing && frame_rows != array_rows;
     seen  <= (seen || checked) && !loading && !again;
     settled <= (settled || (verifying && repeated)) && !loading && !forget;

@@ -17,7 +17,7 @@
 // Results come in up to three groups, first, middle and last (bits 0, 1, 2); the last one completes the frame. A group that the core
 // has not is left at 0. done and refused count only in COMPUTE, so what an aborted frame still gives is lost; in VERIFY done[2] ends the
 // pass, and `upset` must tell a clock later at the latest what it found. VERIFY = 0: no second pass, complete falls with commit[2].
-// state and ready are voted; a frame that an upset, or the watchdog, ends has no results.
+// state, accept and ready are voted; a frame that an upset, or the watchdog, ends has no results.
 `resetall
 `default_nettype none
 
@@ -68,7 +68,6 @@ module frame_state #(
   assign watchdog = (computing | verifying) & cycles[WATCHDOG_BITS];
   assign commit = done & {3{computing}};
   assign busy = loading | computing | verifying;
-  assign accept = ~busy;
 
   wire given_up = soft_reset | watchdog | upset;
   wire solved = computing & done[2] & ~refused & ~given_up;
@@ -104,6 +103,17 @@ module frame_state #(
       .rst(rst),
       .d  (state_next),
       .q  (state)
+  );
+
+  // ~busy again: the loader's way from here to the whole core begins at a flip-flop
+  voted_register #(
+      .WIDTH(1),
+      .RESET(1'b1)
+  ) accept_register (
+      .clk(clk),
+      .rst(rst),
+      .d  (state_next == IDLE || state_next == DONE),
+      .q  (accept)
   );
 
   voted_register #(

@@ -182,9 +182,12 @@ module ivisnav_core #(
   );
 
   // ------------------------------------------------------------------ solve
+  reg flushed;  // a clock later, long before the first item: the way from the state through the loader to `clear` is long
+  always @(posedge clk) flushed <= flush;
+
   rates_engine engine (
       .clk(clk),
-      .rst(rst | flush | again),
+      .rst(rst | flushed | again),
       .item_valid(item_valid),
       .item_row(item_row),
       .item_column(item_column),

@@ -135,7 +135,8 @@ module rates_engine (
   reg count_valid;  // in the clock after the last item
   always @(posedge clk) count_valid <= item_valid && item_last && !rst;
 
-  wire signed [16:0] freedom = {1'b0, used_count} - 17'd6;
+  reg signed [16:0] freedom;
+  always @(posedge clk) freedom <= {1'b0, used_count} - 17'd6;
   wire of_y_row = item_row == 3'd6;
   wire of_y_column = item_column == 3'd6;
   wire signed [SUM-1:0] integer_value = residual_valid ? residual : count_valid ? {{(SUM - 17) {freedom[16]}}, freedom} :

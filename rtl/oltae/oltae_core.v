@@ -163,11 +163,13 @@ module oltae_core #(
   wire [4:0] value_address;
   wire signed [`RELNAV_M1(WEIGHTED)-1:0] value;
   wire forget = flush | again;  // all but the sums
+  reg flushed;  // a clock later, long before the first item: the way from the state through the loader to `clear` is long
+  always @(posedge clk) flushed <= flush;
   wire engine_redrain;
   reg redrain;   // a clock later: the way from the program's address to the lanes is long, and the schedule leaves that clock
   reg low_pass;  // the second drain, for the low limbs
   always @(posedge clk) begin
-    redrain  <= engine_redrain & ~forget & ~rst;
+    redrain  <= engine_redrain & ~forget & ~flushed & ~rst;  // the engine still runs while `flushed`
     low_pass <= (low_pass | redrain) & ~forget & ~rst;
   end
 
@@ -229,6 +231,9 @@ module oltae_core #(
       .value_scale(value_scale)
   );
 
+  reg [`RELNAV_W(WEIGHTED)-1:0] weight_held;  // right clocks before the first pair; the multipliers are far from the counter
+  always @(posedge clk) weight_held <= weight_sum;
+
   wire item_valid, item_zero;
   wire [6:0] item_tag;
   wire [34:0] item_mant;
@@ -242,11 +247,11 @@ module oltae_core #(
       .TAG_BITS(7)
   ) stream (
       .clk(clk),
-      .rst(rst | forget),
+      .rst(rst | flushed | again),
       .low(low_pass),
       .pair_valid(pair_valid),
       .pair_tag({low_pass, 1'b0, pair_slot, pair_lane}),
-      .weight_sum(weight_sum),
+      .weight_sum(weight_held),
       .pair_moment(pair_moment),
       .pair_first_i(pair_first_i),
       .pair_first_j(pair_first_j),
@@ -292,7 +297,7 @@ module oltae_core #(
       .REAPPLY(REAPPLY)
   ) engine (
       .clk(clk),
-      .rst(rst | forget),
+      .rst(rst | flushed | again),
       .forbid_turns(config_forbid_turns),
       .covariance(COVARIANCE != 0 && config_covariance),
       .reapply(REAPPLY != 0 && config_reapply),

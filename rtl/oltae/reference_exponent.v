@@ -4,7 +4,7 @@
 //   moment_scale      largest exponent of the traces T        cross_scale     of the exact cross terms N (lane 0's z)
 //   quaternion_scale  of the quaternion                       centroid_scale  of the centroids
 // Each dot product's reference keeps its terms at or below it and its sum inside the accumulator: the constants are the widths' bounds.
-// Latency: `code` in cycle 0 of a slot gives the references in cycle 2.
+// Latency: `code` in cycle 0 of a slot gives the references in cycle 2; of what was on the bus two cycles before cycle 0 or earlier.
 `resetall
 `default_nettype none
 module reference_exponent (
@@ -34,22 +34,28 @@ module reference_exponent (
 
   reg signed [13:0] moment_scale, cross_scale, quaternion_scale, centroid_scale;
   wire signed [13:0] item_exponent = {{2{item_value[46]}}, item_value[46:35]};
-  wire signed [13:0] bus_exponent = {{2{bus[46]}}, bus[46:35]};
+  reg signed [13:0] bus_exponent;  // a clock later: the bus comes late
+  reg bus_zero, afresh, of_quaternion, of_centroid;
   wire of_slot = item_valid & ~item_value[47] & item_address[4:3] != 2'd3;
   wire is_trace = of_slot & item_address[2:0] == 3'd0;
   wire is_cross = of_slot & item_address[2:0] == 3'd5;
 
   always @(posedge clk) begin
+    bus_exponent  <= {{2{bus[46]}}, bus[46:35]};
+    bus_zero      <= bus[47];
+    afresh        <= track_afresh;
+    of_quaternion <= track_quaternion;
+    of_centroid   <= track_centroid;
     // the first item is a trace
     if (start) moment_scale <= is_trace ? item_exponent : LOWEST;
     else if (is_trace && item_exponent > moment_scale) moment_scale <= item_exponent;
     if (start) cross_scale <= LOWEST;
     else if (is_cross && item_exponent > cross_scale) cross_scale <= item_exponent;
     if (start) quaternion_scale <= LOWEST;
-    else if (track_afresh) quaternion_scale <= bus[47] ? LOWEST : bus_exponent;
-    else if (track_quaternion && !bus[47] && bus_exponent > quaternion_scale) quaternion_scale <= bus_exponent;
+    else if (afresh) quaternion_scale <= bus_zero ? LOWEST : bus_exponent;
+    else if (of_quaternion && !bus_zero && bus_exponent > quaternion_scale) quaternion_scale <= bus_exponent;
     if (start) centroid_scale <= LOWEST;
-    else if (track_centroid && !bus[47] && bus_exponent > centroid_scale) centroid_scale <= bus_exponent;
+    else if (of_centroid && !bus_zero && bus_exponent > centroid_scale) centroid_scale <= bus_exponent;
   end
 
   reg [3:0] code_1;

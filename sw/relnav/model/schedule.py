@@ -119,7 +119,7 @@ class Scheduler:
             assert dot.divide_dest is not None
             self.ready[dot.divide_dest] = done + RECIPROCAL_LATENCY
         for reference in SCALED.get(dot.track, ()):
-            self.references[reference] = max(self.references.get(reference, 0), done - 1)
+            self.references[reference] = max(self.references.get(reference, 0), done)
         self.busy_stores |= stores(dot, dot.cycle)
         if dot.output != NO_OUTPUT:
             self.output_free = done + (1 if dot.output == SINGLE else 3)

@@ -49,7 +49,7 @@ class Model:
 
     def reasons(self, state: str, inputs: dict[str, int]) -> set[str]:
         """What this clock's inputs say."""
-        found = {"lost"} if state == "loading" and (self.give_up or not inputs["open"]) else set()
+        found = {"lost"} if state == "loading" and not inputs["open"] else set()
         if state == "computing" and inputs["frame_rows"] != inputs["array_rows"]:
             found.add("rows")
         if inputs["differ"]:

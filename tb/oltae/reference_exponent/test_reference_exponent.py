@@ -46,6 +46,8 @@ def test_reference_exponent_matches_the_model(simulator: str, tmp_path: Path) ->
                     moment = max(moment, item[1])
                 if address % 8 == 5:
                     cross = max(cross, item[1])
+            # what is on the bus now counts for the next clock's code
+            tracked_quaternion, tracked_centroid = quaternion, centroid
             if event == asm.TRACK_AFRESH:
                 quaternion = EXPONENT_FLOOR
             if event in (asm.TRACK_AFRESH, asm.TRACK_QUATERNION) and bus[0]:
@@ -61,8 +63,8 @@ def test_reference_exponent_matches_the_model(simulator: str, tmp_path: Path) ->
                 scales = Solver(
                     moment_scale=moment,
                     cross_scale=cross,
-                    quaternion_scale=quaternion,
-                    centroid_scale=centroid,
+                    quaternion_scale=tracked_quaternion,
+                    centroid_scale=tracked_centroid,
                     registers=[],
                     lanes=[],
                 )
