@@ -8,13 +8,14 @@ import sys
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 from pathlib import Path
+from typing import NoReturn
 
 import numpy as np
 from matplotlib.figure import Figure
 from numpy.typing import NDArray
 from relnav.attitude import angle_of
 from relnav.backends import BACKENDS
-from relnav.errors import InputError, RelnavError
+from relnav.errors import InputError, RelnavError, one_line
 from relnav.report.style import house_style, png
 from relnav.result import PoseResult
 
@@ -27,6 +28,14 @@ EXIT_BAD_INPUT = 2
 
 class NoData(Exception):
     """Data that are not part of the project and are not here: the example is skipped."""
+
+
+class Parser(argparse.ArgumentParser):
+    """Errors are one line; --help has the usage."""
+
+    def error(self, message: str) -> NoReturn:
+        """What is wrong, and exit code 2."""
+        self.exit(EXIT_BAD_INPUT, f"{self.prog}: {one_line(message)}\n")
 
 
 @dataclass(frozen=True)
@@ -45,7 +54,7 @@ def run(name: str, example: Callable[[Options], Figure], text: str, frames: int,
 
     Returns the exit code: 0, also where the data are missing, or 2 after one line on bad input.
     """
-    parser = argparse.ArgumentParser(prog=f"python -m examples.{name}", description=text.partition("\n")[0])
+    parser = Parser(prog=f"python -m examples.{name}", description=text.partition("\n")[0])
     parser.add_argument("--backend", choices=BACKENDS, default="fixed", help="default: %(default)s")
     parser.add_argument("--frames", type=int, default=frames, metavar="N", help="default: %(default)s")
     parser.add_argument("--data", type=Path, default=DATA, metavar="DIR", help="default: ../shared/data")

@@ -91,15 +91,19 @@ def picture(flown: Run, found: Array, sigma: Array, off: dict[str, tuple[Array, 
     end = flown.samples[0].frame.p + [0.0, 0.0, away]
     plate = CAMERA.size * np.array([[-1, -1, 0], [1, -1, 0], [1, 1, 0], [-1, 1, 0]]) + [0, 0, away]
     room.plot_trisurf(*plate.T, triangles=[[0, 1, 2], [0, 2, 3]], color=DOUBLE, alpha=0.15)
-    for label, at, colour in (("sensor", start[0], TRUTH), ("plate", plate[0], DOUBLE)):
+    for label, at, colour in (
+        ("sensor", start.min(axis=0) - [0.5, 0.5, 0], TRUTH),
+        ("plate", plate[0], DOUBLE),
+    ):
         room.text(*at, f"{label}  ", color=colour, ha="right")
     for one, other in zip(start, end, strict=True):
         room.plot(*np.array([one, other]).T, color=CORE, linewidth=1.4)
     room.scatter(*start.T, color=TRUTH)
     room.scatter(*end.T, color=CORE)
-    room.set(xlabel="x, m", ylabel="y, m", zlabel="z, m", title="Six laser beams")
-    room.set(xticks=(-1, 0, 1), yticks=(-1, 0, 1), zlim=(0.0, away))
-    room.set_box_aspect((1, 1, 1), zoom=0.85)
+    room.set(xlabel="x, m", ylabel="y, m", title="Six laser beams")
+    room.set_zlabel("z, m", labelpad=10)
+    room.set(xticks=(-1, 0, 1), yticks=(-1, 0, 1), zticks=(0.0, 0.5, 1.0, 1.5), zlim=(0.0, away))
+    room.set_box_aspect((1, 1, 1), zoom=0.82)
     panels = right.subplots(2, 2, sharex=True)
     for axes, (title, k) in zip(panels[0], DRIVEN, strict=True):
         axes.plot(flown.times, 1e3 * flown.truth[:, k], color=TRUTH, linewidth=3.0, label="true")

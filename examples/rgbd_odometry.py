@@ -132,7 +132,7 @@ def picture(folder: Path, truth: Array, poses: dict[str, Array], path: Array) ->
         ("truth", truth, {"color": TRUTH, "linewidth": 4.5}),
         ("core", poses["core"], {"color": CORE}),
     ):
-        room.plot(way[:, 2, 3], way[:, 0, 3], label=f"way of the camera: {name}", **style)
+        room.plot(way[:, 2, 3], way[:, 0, 3], label=f"path of the camera: {name}", **style)
     looks = poses["core"][::3]
     room.quiver(
         looks[:, 2, 3], looks[:, 0, 3], looks[:, 2, 2], looks[:, 0, 2], color=CORE, scale=22, width=0.003
@@ -148,7 +148,11 @@ def picture(folder: Path, truth: Array, poses: dict[str, Array], path: Array) ->
         thick = 3.5 if name == "double" else 1.4
         error = 1e3 * errors(way, truth)[0]
         drift.plot(path, error, color=COLOURS[name], label=name, linewidth=thick, zorder=5 - thick)
-    drift.set(xlabel="way, m", ylabel="error of the position, mm", title="Drift: nothing closes the loop")
+    drift.set(
+        xlabel="distance travelled, m",
+        ylabel="error of the position, mm",
+        title="Drift: nothing closes the loop",
+    )
     drift.legend(loc="upper left")
     return drawn
 

@@ -65,8 +65,8 @@ def alignment(options: Options) -> Figure:
         "scans as they are": apart,
         f"all {len(good)} matched features": core(scans.a, scans.b),
         f"the {good.sum()} that agree": first,
-        **{f"surfaces, step {k}": steps[k] for k in sorted({1, 2, 5, len(steps) - 1})},
-        f"step {len(steps) - 1} by Kabsch, double": double,
+        **{f"surfaces, step {k}": steps[k] for k in sorted({1, 2, 5, options.frames}) if k <= options.frames},
+        f"step {options.frames} by Kabsch, double": double,
     }
     off, turned = errors([rigid(*way) for way in ways.values()], [rigid(*scans.truth)] * len(ways))
     print(f"{scans.name}: {len(scans.source)} points on {len(scans.target)}; {scans.reference}")
@@ -152,7 +152,7 @@ def picture(scans: Scans, poses: dict[str, Pose], steps: list[Pose], gaps: Array
     way.semilogy(off, color=CORE, marker="o", markersize=3, label="error of t, m")
     way.semilogy(turned, color=MUTED, marker="s", markersize=3, label="error of R, degrees")
     way.semilogy(gaps, color=DOUBLE, marker="^", markersize=3, label="median distance from the surface, m")
-    way.set(xlabel="step (0: features that agree)", title="Closer at each step")
+    way.set(xlabel="step (0: features that agree)", ylabel="m, or degrees", title="Closer at each step")
     way.legend(loc="best")
     return drawn
 

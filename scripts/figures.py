@@ -97,13 +97,22 @@ def frame(core: str, top: str) -> Drawing:
         'stroke-dasharray="6 4"/>'
     )
     d.text(98, 32, top, 13, "start", bold=True)
+    for x, kind, words in (
+        (560, "bus", "bus"),
+        (620, "data", "data path"),
+        (712, "trust", "states and protections"),
+    ):
+        d.parts.append(f'<rect x="{x}" y="22" width="12" height="12" fill="{FILL[kind]}" stroke="{EDGE}"/>')
+        d.text(x + 18, 32, words, 11, "start")
     d.box(106, 116, 118, 76, "frame_loader", ("stream or push", "frames, weights"), "bus")
     d.box(660, 116, 102, 76, "result_store", ("2 banks,", "compares twice"), "bus")
     d.box(780, 116, 130, 76, f"{core}_registers", ("AXI4-Lite",), "bus")
     d.arrow((10, 154), (106, 154))
-    d.text(12, 146, "s_axis_*", 11, "start")
+    d.text(12, 132, "s_axis_*", 11, "start")
+    d.text(12, 146, "64 bits", 11, "start")
     d.arrow((910, 140), (988, 140), both=True)
-    d.text(988, 132, "s_axil_*", 11, "end")
+    d.text(988, 118, "s_axil_*", 11, "end")
+    d.text(988, 132, "32 bits", 11, "end")
     d.arrow((910, 172), (988, 172))
     d.text(988, 187, "irq", 11, "end")
     d.arrow((762, 154), (780, 154))
@@ -118,8 +127,16 @@ def frame(core: str, top: str) -> Drawing:
         ("IDLE, loading, COMPUTE, VERIFY, DONE; watchdog, cycle counters",),
         "trust",
     )
-    d.box(788, 288, 114, 54, "core_upsets", ("flag UPSET",), "trust")
-    d.arrow((788, 315), (762, 315))
+    d.box(
+        786,
+        280,
+        128,
+        70,
+        "core_upsets",
+        ("votes, twins, parity,", "residue, second pass", "-> UPSET"),
+        "trust",
+    )
+    d.arrow((786, 315), (762, 315))
     d.arrow((845, 192), (845, 240), (700, 240), (700, 288), both=True)
     d.text(776, 234, "status, soft reset")
     d.arrow((165, 192), (165, 288), both=True)

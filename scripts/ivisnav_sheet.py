@@ -1,5 +1,7 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Accuracy and area of the iVisNav core, from bench/results.json and syn/results.json, into docs/ivisnav.md.
+"""Accuracy, area, registers and the C driver's size of the iVisNav core, into docs/ivisnav.md.
+
+From bench/results.json, syn/results.json, docs/registers-ivisnav.md and sw/c/size.json.
 
 python scripts/ivisnav_sheet.py
 """
@@ -14,7 +16,8 @@ from typing import Any
 ROOT = Path(__file__).resolve().parent.parent
 sys.path.insert(0, str(ROOT))
 
-from scripts.marked import fill, table  # noqa: E402 (the path is set above)
+from scripts.c_size import CALLED, KINDS, SHARED  # noqa: E402 (the path is set above)
+from scripts.marked import fill, table  # noqa: E402
 
 SHEET = ROOT / "docs" / "ivisnav.md"
 PAPER = {"LUT": 35488, "FF": 14968, "DSP": 120, "BRAM": 12.5}  # its Table I, xc7z020
@@ -38,6 +41,26 @@ def number(value: float | None) -> str:
 def largest(values: list[float | None]) -> float | None:
     """Of those that are there."""
     return max((value for value in values if value is not None), default=None)
+
+
+def registers(core: str) -> str:
+    """The register map, without the fields: the first table of the generated page."""
+    page = (ROOT / f"docs/registers-{core}.md").read_text(encoding="utf-8")
+    rows = page[page.index("| Address") :].partition("\n\n")[0]
+    return f"{rows}\n\nFields of each register: [registers-{core}.md](registers-{core}.md)."
+
+
+def driver(core: str, size: Json) -> str:
+    """Code and stack of the C driver."""
+    if not size:
+        return "Not measured: `make c`."
+    parts = [size["objects"][name] for name in (*SHARED, core)]
+    stack = [str(size["stack"][f"{core}_{name}"]) for name in CALLED]
+    head = (*KINDS, *(f"stack of `{core}_{name}`" for name in CALLED))
+    rows = [[*(str(sum(part[kind] for part in parts)) for kind in KINDS), *stack]]
+    return (
+        f"{table(head, rows)}\n\nBytes, no heap; {size['compiler']}, `{size['options']}`. Made by `make c`."
+    )
 
 
 def accuracy(bench: Json) -> str:
@@ -71,12 +94,12 @@ def rings(found: Json) -> str:
     head = (
         f"ring, {' '.join(map(str, count))} frames each",
         "cond(H)",
-        "weighted",
+        "cond(H), weighted",
         "v_z",
         "omega_z",
         "idle",
         "explicit inverse",
-        "weighted",
+        "the same, weighted",
         "refused / weighted",
     )
     return table(head, rows)
@@ -144,12 +167,19 @@ def area(syn: Json) -> str:
     return table(("", *PAPER), rows) + routed
 
 
-def main() -> int:
-    """Fill both blocks."""
-    texts = {
+def blocks() -> dict[str, str]:
+    """What this script fills."""
+    return {
+        "registers": registers("ivisnav"),
         "accuracy": accuracy(load("bench/results.json")),
         "area": area(load("syn/results.json")),
+        "driver": driver("ivisnav", load("sw/c/size.json")),
     }
+
+
+def main() -> int:
+    """Fill them."""
+    texts = blocks()
     changed = [name for name, text in texts.items() if fill(SHEET, name, text)]
     print(f"{SHEET.name}: {', '.join(changed) or 'nothing'} changed")
     return 0

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Accuracy and area of the OLTAE core, from bench/results.json and syn/results.json, into docs/oltae.md.
+"""Accuracy, area, registers and the C driver's size of the OLTAE core, into docs/oltae.md.
 
 python scripts/oltae_sheet.py
 """
@@ -12,7 +12,7 @@ from pathlib import Path
 ROOT = Path(__file__).resolve().parent.parent
 sys.path.insert(0, str(ROOT))
 
-from scripts.ivisnav_sheet import Json, load, number  # noqa: E402 (the path is set above)
+from scripts.ivisnav_sheet import Json, driver, load, number, registers  # noqa: E402 (the path is set above)
 from scripts.marked import fill, table  # noqa: E402
 
 SHEET = ROOT / "docs" / "oltae.md"
@@ -74,9 +74,19 @@ def area(syn: Json) -> str:
     return table(("build", "parameters", *KINDS), rows) + tool + routed
 
 
+def blocks() -> dict[str, str]:
+    """What this script fills."""
+    return {
+        "registers": registers("oltae"),
+        "accuracy": accuracy(load("bench/results.json")),
+        "area": area(load("syn/results.json")),
+        "driver": driver("oltae", load("sw/c/size.json")),
+    }
+
+
 def main() -> int:
-    """Fill both blocks."""
-    texts = {"accuracy": accuracy(load("bench/results.json")), "area": area(load("syn/results.json"))}
+    """Fill them."""
+    texts = blocks()
     changed = [name for name, text in texts.items() if fill(SHEET, name, text)]
     print(f"{SHEET.name}: {', '.join(changed) or 'nothing'} changed")
     return 0

@@ -53,7 +53,12 @@ def oltae(found: Json) -> Figure:
         left.loglog(kappa, [entry[key]["error"] for entry in bins], marker + "-", label=name, lw=1, ms=5)
     bound, limit = found["accuracy"]["bound"], found["accuracy"]["bound_kappa"]
     left.plot([kappa[0] / 2, limit], [bound, bound], "k--", lw=1, label="bound of q")
-    grid(left, "largest relative error to the exact solution", "kappa(M) below", "relative error")
+    grid(
+        left,
+        "largest relative error to the exact solution",
+        "kappa(M) below",
+        "relative error",
+    )
     left.legend(fontsize=8)
     angles = found["three_sigma"]["angles"]
     for place, entry in enumerate(angles):
@@ -67,7 +72,12 @@ def oltae(found: Json) -> Figure:
         [f"{a['degrees']:g}°" + ("\nre-applied" if a["reapplied"] else "") for a in angles],
     )
     right.set_ylim(99.3, 100)
-    grid(right, f"errors inside 3 sigma, {angles[0]['trials']} trials each", "angle", "percent")
+    grid(
+        right,
+        f"errors inside 3 sigma, {angles[0]['trials']} trials each",
+        "angle of the rotation",
+        "inside, percent",
+    )
     right.legend(fontsize=8, loc="upper right")
     return figure
 
@@ -93,18 +103,15 @@ def ivisnav(found: Json) -> Figure:
     grid(
         left,
         "largest relative error to the exact solution",
-        "largest cond(H) of the frames",
+        "largest cond(H) in a row of the tables",
         "relative error",
     )
     left.set_ylim(2e-8, 2e3)
     left.legend(fontsize=7, ncols=2, loc="upper left")
     noise = [entry["noise"] for entry in rates["rss"]]
-    right.loglog(noise, [entry["error"] for entry in rates["rss"]], "o-", label="of rss", lw=1)
-    right.loglog(
-        noise, [entry["floor"] for entry in rates["rss"]], "s-", label="of the weighted squares of y", lw=1
-    )
-    grid(right, "error of the residual sum of squares", "noise of y / rms of y", "relative to")
-    right.set_ylabel("error of rss, relative")
+    right.loglog(noise, [entry["error"] for entry in rates["rss"]], "o-", label="relative to rss", lw=1)
+    right.loglog(noise, [entry["floor"] for entry in rates["rss"]], "s-", label="relative to sum w y^2", lw=1)
+    grid(right, "error of the residual sum of squares", "noise of y / rms of y", "relative error")
     right.legend(fontsize=8)
     return figure
 

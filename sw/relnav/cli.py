@@ -9,6 +9,7 @@ import json
 import math
 import os
 import sys
+import warnings
 from collections.abc import Callable, Sequence
 from pathlib import Path
 from typing import Any, NoReturn, TypeVar
@@ -16,7 +17,7 @@ from typing import Any, NoReturn, TypeVar
 from . import __version__
 from .backends import BACKENDS, solve
 from .checkout import CORES, RTL, copy_rtl, rtl_files
-from .errors import BackendError, RelnavError, one_line
+from .errors import BackendError, IgnoredWarning, RelnavError, one_line
 from .frames import read_frames
 from .ivisnav.backends import solve_rates
 from .ivisnav.result import RatesResult
@@ -26,6 +27,7 @@ from .result import PoseResult
 from .table import pose_table, rates_table
 
 AnyResult = TypeVar("AnyResult", PoseResult, RatesResult)
+Frames = TypeVar("Frames")
 
 EXIT_BAD_INPUT = 2
 EXIT_NO_RESULT = 3
@@ -73,14 +75,14 @@ def pose_command(options: argparse.Namespace) -> int:
         reapply=options.reapply,
         variance=_variance(options.sigma_a, options.sigma_b),
     )
-    results = solve(read_frames(options.file), options.backend, config=config, rtl_dir=options.rtl)
+    results = solve(_read(read_frames, options.file), options.backend, config=config, rtl_dir=options.rtl)
     return _print_results(results, pose_table, options.json)
 
 
 def rates_command(options: argparse.Namespace) -> int:
     """Rates of a file's frames, as a table or as JSON. Prints only when all is solved."""
     results = solve_rates(
-        read_rate_frames(options.file),
+        _read(read_rate_frames, options.file),
         options.backend,
         f0=options.f0,
         dt=options.dt,
@@ -88,6 +90,19 @@ def rates_command(options: argparse.Namespace) -> int:
         rtl_dir=options.rtl,
     )
     return _print_results(results, rates_table, options.json)
+
+
+def _read(reader: Callable[[Path], Frames], file: Path) -> Frames:
+    """The frames of a file; a line on standard error names columns that are ignored."""
+    with warnings.catch_warnings(record=True) as noted:
+        warnings.simplefilter("always", IgnoredWarning)
+        frames = reader(file)
+    for one in noted:
+        if issubclass(one.category, IgnoredWarning):
+            print(f"relnav: warning: {one_line(one.message)}", file=sys.stderr)
+        else:
+            warnings.warn_explicit(one.message, one.category, one.filename, one.lineno)
+    return frames
 
 
 def _print_results(

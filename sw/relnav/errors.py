@@ -20,6 +20,10 @@ class InputError(RelnavError, ValueError):
     """Input that no backend can take: names the file, the row and the reason."""
 
 
+class IgnoredWarning(UserWarning):
+    """A file has columns or arrays that nobody asks for: perhaps a name is misspelt."""
+
+
 class BackendError(RelnavError):
     """A backend that cannot run: a tool or a part of the package is missing, or the simulation failed."""
 

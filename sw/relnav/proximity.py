@@ -12,7 +12,7 @@ import numpy as np
 from tqdm import tqdm
 
 from .attitude import FloatArray
-from .backends import installed_simulator, solve
+from .backends import check_backend, check_rtl, installed_simulator, solve
 from .checkout import ROOT
 from .errors import BackendError
 from .frames import Frame
@@ -100,6 +100,8 @@ def run_proximity(
     out = Path("out") / "proximity" if out is None else out
     backend = backend or installed_simulator()
     solvers = solvers or Backends()
+    check_backend(backend, rtl)
+    check_rtl(rtl)
     refuse_file(out)
     make_folder(out)
     kinds = list(dict.fromkeys([backend, "fixed", "double"]))

@@ -11,7 +11,8 @@ from __future__ import annotations
 import csv
 import io
 import math
-from collections.abc import Iterator, Mapping
+import warnings
+from collections.abc import Iterable, Iterator, Mapping
 from dataclasses import dataclass, replace
 from pathlib import Path
 from typing import Any
@@ -20,9 +21,10 @@ import numpy as np
 import numpy.typing as npt
 
 from .attitude import FloatArray
-from .errors import InputError, one_line
+from .errors import IgnoredWarning, InputError, one_line
 
 LABEL_LENGTH = 64
+SHOWN = 5  # unknown names in a warning
 WEIGHT, LABEL = "w", "frame"  # every layout may have these columns or arrays
 
 
@@ -185,7 +187,7 @@ def _lines(source: str, data: bytes) -> tuple[list[str], npt.NDArray[np.int64]]:
 
 
 def _header(source: str, line: str, number: int, layout: Layout) -> list[str]:
-    """Column names; the layout's must all be there, none of ours twice; other columns are ignored."""
+    """Column names; the layout's must all be there, none of ours twice. Others: a warning."""
     try:
         columns = [field.strip() for field in next(csv.reader([line]))]
     except csv.Error as error:
@@ -196,6 +198,7 @@ def _header(source: str, line: str, number: int, layout: Layout) -> list[str]:
     for name in (*layout.columns, WEIGHT, LABEL):
         if columns.count(name) > 1:
             raise InputError(f"{source}: header (line {number}): column {name} stands there twice")
+    _ignored(source, "column", columns, (*layout.columns, WEIGHT, LABEL))
     return columns
 
 
@@ -255,6 +258,7 @@ def _read_npz(source: str, file: io.BytesIO, layout: Layout) -> list[Records]:
             raise InputError(f"{source}: a single array; expected an .npz with arrays {layout.names}")
         with archive:
             arrays = {name: _load(source, archive, name) for name in known if name in archive}
+            others = archive.files
     except InputError:
         raise
     except Exception as error:  # a damaged archive raises from zipfile, zlib, struct, ast and numpy alike
@@ -264,6 +268,7 @@ def _read_npz(source: str, file: io.BytesIO, layout: Layout) -> list[Records]:
     for name in layout.arrays:
         if name not in arrays:
             raise InputError(f"{source}: missing array {name}")
+    _ignored(source, "array", others, known)
     labels = arrays.pop(LABEL, None)
     whole = _checked(
         layout,
@@ -309,6 +314,16 @@ def _array(name: str, values: npt.ArrayLike, shape: tuple[int | None, ...], pref
 
 
 # ---- both
+
+
+def _ignored(source: str, kind: str, names: Iterable[str], known: Iterable[str]) -> None:
+    """Warn of what stands in the file and is not used."""
+    known = list(known)
+    others = [name for name in dict.fromkeys(names) if name and name not in known]
+    if others:
+        more = f" and {len(others) - SHOWN} more" if len(others) > SHOWN else ""
+        what = f"{kind}{'s' if len(others) > 1 else ''} {', '.join(map(_shown, others[:SHOWN]))}{more}"
+        warnings.warn(f"{source}: {what} ignored; known are {', '.join(known)}", IgnoredWarning, stacklevel=2)
 
 
 def _check(records: Records) -> None:

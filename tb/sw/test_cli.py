@@ -148,6 +148,9 @@ def test_bad_input_is_one_line_and_exit_2(tmp_path: Path, content: str | None, w
         ["pose", "x.csv", "--sigma-a", "0"],
         ["pose", "three.csv", "--rtl", "nowhere"],
         ["pose", "three.csv", "--rtl", "nowhere", "--backend", "icarus"],
+        ["landing", "--rtl", "nowhere", "--backend", "icarus"],
+        ["proximity", "--rtl", "nowhere", "--backend", "icarus"],
+        ["proximity", "--rtl", ".", "--backend", "fixed"],
         ["landing", "--frames", "0"],
         ["landing", "--images", "drawn"],
     ],
@@ -169,6 +172,34 @@ def test_version_and_help(capsys: pytest.CaptureFixture[str]) -> None:
         with pytest.raises(SystemExit) as stop:
             cli.main(arguments)
         assert stop.value.code == 0 and expected in capsys.readouterr().out
+
+
+@pytest.mark.parametrize(
+    ("header", "said"),
+    [
+        ("ax,ay,az,bx,by,bz", ""),
+        ("ax,ay,az,bx,by,bz,weight", "column 'weight' ignored; known are ax, ay, az, bx, by, bz, w, frame"),
+        ("W,ax,ay,az,bx,by,bz,,Frame", "columns 'W', 'Frame' ignored; known are"),
+        (
+            "ax,ay,az,bx,by,bz," + ",".join(f"c{i}" for i in range(9)),
+            "'c0', 'c1', 'c2', 'c3', 'c4' and 4 more",
+        ),
+    ],
+)
+def test_columns_that_are_ignored_are_named_in_one_line(header: str, said: str, tmp_path: Path) -> None:
+    rows = np.random.default_rng(1).uniform(1, 2, (5, header.count(",") + 1))
+    file = tmp_path / "points.csv"
+    file.write_text("\n".join([header, *(",".join(map(str, row)) for row in rows)]) + "\n")
+    done = run("pose", file, "--backend", "double")
+    assert said in done.stderr and done.stderr.count("\n") == (said != "")
+    assert done.stderr.startswith("relnav: warning: " if said else "") and "Warning" not in done.stderr
+
+
+def test_arrays_that_are_ignored_are_named(tmp_path: Path) -> None:
+    a = np.random.default_rng(1).normal(size=(5, 3))
+    np.savez(tmp_path / "points.npz", a=a, b=a, weights=np.ones(5))
+    done = run("pose", tmp_path / "points.npz", "--backend", "double")
+    assert "array 'weights' ignored; known are a, b, w, frame\n" in done.stderr
 
 
 def test_closed_pipe(three_frames: Path) -> None:

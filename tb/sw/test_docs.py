@@ -5,9 +5,13 @@ from __future__ import annotations
 
 import re
 from pathlib import Path
+from types import ModuleType
+from typing import Any
 
 import pytest
+from relnav.registers import Ivisnav, Oltae
 
+from scripts import ivisnav_sheet, oltae_sheet
 from scripts.marked import fill
 from sim.sources import ROOT, sources
 
@@ -33,8 +37,8 @@ MARKERS = {
         "area",
         "timing",
     },
-    "docs/oltae.md": {"latency", "accuracy", "area"},
-    "docs/ivisnav.md": {"latency", "accuracy", "area"},
+    "docs/oltae.md": {"registers", "latency", "accuracy", "area", "driver"},
+    "docs/ivisnav.md": {"registers", "latency", "accuracy", "area", "driver"},
 }
 
 
@@ -59,6 +63,34 @@ def test_links_lead_somewhere(page: Path) -> None:
 def test_every_block_is_there() -> None:
     for page, names in MARKERS.items():
         assert set(re.findall(r"<!-- (\w+):begin -->", (ROOT / page).read_text())) == names
+
+
+@pytest.mark.parametrize("sheet", [oltae_sheet, ivisnav_sheet])
+def test_data_sheets_have_the_present_results(sheet: ModuleType) -> None:
+    """Registers, area, accuracy and the driver's size, from the files that their runs left."""
+    page = sheet.SHEET.read_text()
+    for name, text in sheet.blocks().items():
+        shown = page.partition(f"<!-- {name}:begin -->\n")[2].partition(f"<!-- {name}:end -->")[0]
+        assert shown == text.rstrip("\n") + "\n", f"{name}: make docs"
+
+
+SECTIONS = (
+    *("What it computes", "Block diagram", "Parameters and ports", "Formats", "Timing", "State machine"),
+    *("Registers", "Latency", "Area", "Accuracy", "Errors", "Limits", "C driver", "Integration"),
+)
+
+
+@pytest.mark.parametrize(("page", "core"), [("oltae", Oltae), ("ivisnav", Ivisnav)])
+def test_a_data_sheet_says_all(page: str, core: Any) -> None:
+    """Its sections, and what each flag means and asks for."""
+    text = (ROOT / f"docs/{page}.md").read_text()
+    assert [title for title in re.findall(r"^## (.+)$", text, re.MULTILINE) if title != "Results"] == [
+        *SECTIONS
+    ]
+    errors = text.partition("## Errors")[2].partition("## Limits")[0]
+    rows = [line.strip("| ").split(" | ") for line in errors.splitlines() if re.match(r"\| [A-Z_]+ \|", line)]
+    assert {row[0] for row in rows} == set(core.FLAGS.FIELDS)
+    assert all(len(row) == 5 and all(row) for row in rows)
 
 
 def test_fill(tmp_path: Path) -> None:

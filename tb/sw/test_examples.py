@@ -80,6 +80,12 @@ def test_scan_alignment_of_recorded_scans(run: Run) -> None:
     assert row(printed, "scans as they are")[0] > 0.5 > 0.05 > row(printed, "surfaces, step 5")[0]
 
 
+def test_few_steps_are_shown_as_they_are(run: Run) -> None:
+    printed = run("scan_alignment", "--scans", "terrain", "--frames", "2")
+    assert re.findall(r"^surfaces, step (\d+)", printed, re.MULTILINE) == ["1", "2"]
+    assert "step 2 by Kabsch" in printed
+
+
 def test_landing(run: Run) -> None:
     printed = run("landing", "--frames", "4")
     error, drift, turned, from_double = row(printed, "core")
@@ -109,6 +115,16 @@ def test_bad_input_is_one_line(monkeypatch: pytest.MonkeyPatch, capsys: pytest.C
     monkeypatch.setattr(sys, "argv", ["landing", "--frames", "1"])
     assert common.run("landing", landing.landing, "test", frames=2) == 2
     assert capsys.readouterr().err == "python -m examples.landing: --frames 1: two are the least\n"
+
+
+def test_a_bad_option_is_one_line(
+    monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
+) -> None:
+    monkeypatch.setattr(sys, "argv", ["landing", "--backend", "nope"])
+    with pytest.raises(SystemExit) as left:
+        common.run("landing", landing.landing, "test", frames=2)
+    said = capsys.readouterr().err
+    assert left.value.code == 2 and said.count("\n") == 1 and "nope" in said
 
 
 def test_page() -> None:

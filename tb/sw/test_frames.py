@@ -9,7 +9,7 @@ from pathlib import Path
 
 import numpy as np
 import pytest
-from relnav.errors import InputError
+from relnav.errors import IgnoredWarning, InputError
 from relnav.frames import make_frame, read_frames
 
 HEADER = "ax,ay,az,bx,by,bz"
@@ -78,7 +78,8 @@ def test_spellings(tmp_path: Path, text: str | bytes) -> None:
 
 def test_columns_in_any_order_among_others(tmp_path: Path) -> None:
     text = "note,bz,by,bx,w,az,ay,ax,note,\nx,6,5,4,2,3,2,1,y,\n,12,11,10,0.5,9,8,7,,\n"
-    (frame,) = read_frames(csv(tmp_path, text))
+    with pytest.warns(IgnoredWarning, match=r"column 'note' ignored"):
+        (frame,) = read_frames(csv(tmp_path, text))
     assert frame.a.tolist() == [[1, 2, 3], [7, 8, 9]] and frame.b.tolist() == [[4, 5, 6], [10, 11, 12]]
     assert frame.w is not None and frame.w.tolist() == [2.0, 0.5]
 

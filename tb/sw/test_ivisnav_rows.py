@@ -8,7 +8,7 @@ from pathlib import Path
 
 import numpy as np
 import pytest
-from relnav.errors import InputError
+from relnav.errors import IgnoredWarning, InputError
 from relnav.ivisnav.rows import make_rate_frame, read_rate_frames
 
 HEADER = "rx,ry,rz,px,py,pz,dphi"
@@ -53,7 +53,8 @@ def test_csv(tmp_path: Path) -> None:
 def test_csv_with_everything(tmp_path: Path) -> None:
     text = "frame,w,dphi,note,rx,ry,rz,px,py,pz\n"
     text += "u,1,0.1,x,1,0,0,0,0,0\nv,2,0.2,,0,1,0,1,2,3\nu,3,0.3,,0,0,1,0,0,1\n"
-    first, second = read_rate_frames(csv(tmp_path, text))
+    with pytest.warns(IgnoredWarning, match=r"column 'note' ignored"):
+        first, second = read_rate_frames(csv(tmp_path, text))
     assert (first.name, second.name) == ("u", "v")
     assert first.dphi.tolist() == [0.1, 0.3] and second.p.tolist() == [[1, 2, 3]]
     assert first.w is not None and first.w.tolist() == [1, 3]

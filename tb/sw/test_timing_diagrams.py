@@ -30,6 +30,8 @@ class Scene:
     core: str
     name: str
     macros: tuple[str, ...]
+    skip: int = 0
+    """Clocks of the scene before the first that is drawn."""
 
 
 PLAIN = ("BEATS=9", "PAUSE=4", "FIRST=q_ready", "SECOND=pose_ready")
@@ -43,6 +45,7 @@ SCENES = {
     "oltae_results": Scene("oltae", "results", PLAIN),
     "push": Scene("oltae", "push", PLAIN),
     "ivisnav_stream": Scene("ivisnav", "stream", ROWS),
+    "ivisnav_last": Scene("ivisnav", "stream", ROWS, 38),
     "ivisnav_results": Scene("ivisnav", "results", ROWS),
 }
 DRAWINGS = sorted(SOURCES.glob("*.json5"))
@@ -86,7 +89,7 @@ def drawn(drawing: Path) -> list[dict[str, str]]:
             if letter in ".|":
                 columns.append(columns[-1])
             else:
-                columns.append(STATES[next(labels)] if labelled else letter)
+                columns.append(STATES[next(labels).strip()] if labelled else letter)
         lanes[name.removesuffix("_ready")] = columns
     return [dict(zip(lanes, values, strict=True)) for values in zip(*lanes.values(), strict=True)]
 
@@ -107,7 +110,7 @@ def test_the_core_does_what_is_drawn(drawing: Path, tmp_path_factory: pytest.Tem
         {signal: values[{"rates": "q"}.get(signal, signal)] for signal in picture[0]}
         for name, values in played(scene.core, scene.macros, folder)
         if name == scene.name
-    ]
+    ][scene.skip :]
     assert len(picture) > 5 and len(picture[0]) >= 3
     if "|" in re.findall(r"wave: '(p[^']*)'", drawing.read_text())[0]:  # time is left out
         assert steps(picture) == steps(clocks)

@@ -7,7 +7,6 @@ import random
 from pathlib import Path
 
 import numpy as np
-from relnav.model.gram_ring import COMPONENTS
 from relnav.model.rates_engine import EngineResult, RatesEngine
 from relnav.model.rates_program import Mark, Operation
 from relnav.model.rates_schedule import schedule
@@ -153,4 +152,4 @@ def test_reset_in_the_middle(simulator: str, tmp_path: Path) -> None:
     found = run(top, ["ivisnav", "arith", "gram"], simulator, tmp_path, stimulus, 187, [1, 6, 32, 4, 32], {})
     for start, said in wanted:
         assert [f for f in found if start <= f[0] < start + FRAME - 1] == said
-    assert COMPONENTS == 7
+    assert all(said for _, said in wanted)  # no comparison of nothing with nothing
