@@ -16,8 +16,41 @@
 
 enum { COLUMNS = 6, ROW_BEATS = COLUMNS / 2 + 1 };
 
+/** The register FRAC of a scale. */
+static uint32_t frac_word(const ivisnav_scale *scale)
+{
+    return ((uint32_t)scale->frac_h << IVISNAV_FRAC_FRAC_H_SHIFT & IVISNAV_FRAC_FRAC_H) |
+           ((uint32_t)scale->frac_y << IVISNAV_FRAC_FRAC_Y_SHIFT & IVISNAV_FRAC_FRAC_Y);
+}
+
+static relnav_error check_frame(const ivisnav_frame *frame)
+{
+    if (frame == NULL || !relnav_given(frame->h) || !relnav_given(frame->y)) {
+        return RELNAV_NULL;
+    }
+    return relnav_check_count(frame->count);
+}
+
+static relnav_error check_scale(const ivisnav_scale *scale)
+{
+    relnav_error error = scale == NULL ? RELNAV_NULL : relnav_check_scale(scale->frac_h, scale->weight_scale);
+
+    return error == RELNAV_OK ? relnav_check_scale(scale->frac_y, scale->weight_scale) : error;
+}
+
+/** A frame together with a scale that may be another's. */
+static relnav_error check_scaled(const ivisnav_frame *frame, const ivisnav_scale *scale)
+{
+    relnav_error error = check_frame(frame);
+
+    return error == RELNAV_OK ? check_scale(scale) : error;
+}
+
 relnav_error ivisnav_init(ivisnav *device, relnav_port port)
 {
+    if (device == NULL) {
+        return RELNAV_NULL;
+    }
     memset(device, 0, sizeof *device);
     device->core.port = port;
     device->core.failures = FAILURES;
@@ -37,6 +70,9 @@ relnav_error ivisnav_row(const double r[3], const double p[3], double h[6])
     double length;
     size_t i;
 
+    if (r == NULL || p == NULL || h == NULL) {
+        return RELNAV_NULL;
+    }
     if (relnav_widen(&lengths, relnav_doubles(r), 3, 0) != RELNAV_OK) {
         return RELNAV_NOT_FINITE;
     }
@@ -68,11 +104,9 @@ relnav_error ivisnav_choose(const ivisnav_frame *frame, int wanted_h, int wanted
         row = &at;
     }
     *row = 0;
-    if (frame->count == 0) {
-        return RELNAV_EMPTY;
-    }
-    if (frame->count > RELNAV_ROWS_MAX) {
-        return RELNAV_TOO_LONG;
+    error = scale == NULL ? RELNAV_NULL : check_frame(frame);
+    if (error != RELNAV_OK) {
+        return error;
     }
     for (at = 0; at < frame->count; at++) {
         if (relnav_widen(&h, frame->h, COLUMNS, at) != RELNAV_OK || relnav_widen(&y, frame->y, 1, at) != RELNAV_OK) {
@@ -95,12 +129,13 @@ relnav_error ivisnav_choose(const ivisnav_frame *frame, int wanted_h, int wanted
 
 relnav_error ivisnav_configure(ivisnav *device, double variance, const ivisnav_scale *scale)
 {
-    uint32_t frac_h = (uint32_t)scale->frac_h << IVISNAV_FRAC_FRAC_H_SHIFT & IVISNAV_FRAC_FRAC_H;
-    uint32_t frac_y = (uint32_t)scale->frac_y << IVISNAV_FRAC_FRAC_Y_SHIFT & IVISNAV_FRAC_FRAC_Y;
     uint32_t word;
-    relnav_error error = relnav_variance_word(variance, scale->weight_scale, &word);
+    relnav_error error = device == NULL ? RELNAV_NULL : check_scale(scale);
 
-    return error != RELNAV_OK ? error : relnav_set(&device->core, 0, frac_h | frac_y, word, scale->weight_scale);
+    if (error == RELNAV_OK) {
+        error = relnav_variance_word(variance, scale->weight_scale, &word);
+    }
+    return error == RELNAV_OK ? relnav_set(&device->core, 0, frac_word(scale), word, scale->weight_scale) : error;
 }
 
 size_t ivisnav_beats(const ivisnav_frame *frame)
@@ -111,6 +146,7 @@ size_t ivisnav_beats(const ivisnav_frame *frame)
 static relnav_error row_beats(const ivisnav_frame *frame, const ivisnav_scale *scale, size_t row, uint64_t beats[ROW_BEATS])
 {
     int32_t fixed;
+    uint32_t weight;
     relnav_error error = RELNAV_OK;
     size_t i;
 
@@ -125,16 +161,25 @@ static relnav_error row_beats(const ivisnav_frame *frame, const ivisnav_scale *s
         error = relnav_to_fixed(relnav_real(frame->y, row), scale->frac_y, &fixed);
     }
     if (error == RELNAV_OK) {
-        beats[COLUMNS / 2] = (uint64_t)relnav_weight(frame->w, row, scale->weight_scale) << 32 | (uint32_t)fixed;
+        error = relnav_weight(frame->w, row, scale->weight_scale, &weight);
+    }
+    if (error == RELNAV_OK) {
+        beats[COLUMNS / 2] = (uint64_t)weight << 32 | (uint32_t)fixed;
     }
     return error;
 }
 
 relnav_error ivisnav_fill(const ivisnav_frame *frame, const ivisnav_scale *scale, uint64_t *beats, size_t capacity)
 {
-    relnav_error error = ivisnav_beats(frame) > capacity ? RELNAV_NO_SPACE : RELNAV_OK;
+    relnav_error error = beats == NULL ? RELNAV_NULL : check_scaled(frame, scale);
     size_t row;
 
+    if (error == RELNAV_OK && (uintptr_t)beats % sizeof *beats != 0) {
+        error = RELNAV_MISALIGNED;
+    }
+    if (error == RELNAV_OK && ivisnav_beats(frame) > capacity) {
+        error = RELNAV_NO_SPACE;
+    }
     for (row = 0; error == RELNAV_OK && row < frame->count; row++) {
         error = row_beats(frame, scale, row, beats + ROW_BEATS * row);
     }
@@ -143,18 +188,22 @@ relnav_error ivisnav_fill(const ivisnav_frame *frame, const ivisnav_scale *scale
 
 relnav_error ivisnav_push_frame(ivisnav *device, const ivisnav_frame *frame, const ivisnav_scale *scale)
 {
-    relnav_error error = frame->count == 0 ? RELNAV_EMPTY : relnav_begin_push(&device->core);
+    relnav_error error = device == NULL ? RELNAV_NULL : check_scaled(frame, scale);
     size_t row;
 
+    if (error == RELNAV_OK) {
+        error = relnav_check_set(&device->core, 0, 0, frac_word(scale), scale->weight_scale);
+    }
+    if (error == RELNAV_OK) {
+        error = relnav_begin_push(&device->core);
+    }
     for (row = 0; error == RELNAV_OK && row < frame->count; row++) {
         uint64_t beats[ROW_BEATS];
-        size_t beat;
 
         error = row_beats(frame, scale, row, beats);
-        for (beat = 0; error == RELNAV_OK && beat < ROW_BEATS; beat++) {
-            relnav_push(&device->core, beats[beat], row + 1 == frame->count && beat + 1 == ROW_BEATS);
-        }
-        if (error != RELNAV_OK) {
+        if (error == RELNAV_OK) {
+            relnav_push_row(&device->core, beats, ROW_BEATS, row + 1 == frame->count);
+        } else {
             relnav_soft_reset(&device->core);
         }
     }
@@ -163,9 +212,14 @@ relnav_error ivisnav_push_frame(ivisnav *device, const ivisnav_frame *frame, con
 
 relnav_error ivisnav_read_raw(const ivisnav *device, ivisnav_raw *raw)
 {
-    const relnav_core *core = &device->core;
-    relnav_error error = relnav_read_twice(core, offsetof(ivisnav_registers, FRAME_FLAGS), 1, &raw->flags);
+    const relnav_core *core;
+    relnav_error error;
 
+    if (device == NULL || raw == NULL) {
+        return RELNAV_NULL;
+    }
+    core = &device->core;
+    error = relnav_read_twice(core, offsetof(ivisnav_registers, FRAME_FLAGS), 1, &raw->flags);
     if (error == RELNAV_OK) {
         error = relnav_read_twice(core, offsetof(ivisnav_registers, ROWS), sizeof raw->head / sizeof(uint32_t), raw->head);
     }
@@ -175,19 +229,24 @@ relnav_error ivisnav_read_raw(const ivisnav *device, ivisnav_raw *raw)
     if (error == RELNAV_OK) {
         error = relnav_read_twice(core, offsetof(ivisnav_registers, V), sizeof raw->words / sizeof(uint32_t), raw->words);
     }
-    return error == RELNAV_OK ? relnav_failure(core, relnav_flags(core)) : error;
+    return error == RELNAV_OK ? relnav_confirm(core) : error;
 }
 
 relnav_error ivisnav_read(const ivisnav *device, ivisnav_result *result)
 {
-    double scale = device->core.weight_scale;
     ivisnav_raw raw;
-    relnav_error error = ivisnav_read_raw(device, &raw);
+    relnav_error error;
+    double scale;
 
+    if (result == NULL) {
+        return RELNAV_NULL;
+    }
     memset(result, 0, sizeof *result);
+    error = ivisnav_read_raw(device, &raw);
     if (error != RELNAV_OK) {
         return error;
     }
+    scale = device->core.weight_scale;
     result->flags = raw.flags;
     result->count = raw.head[HEAD(ROWS)];
     result->weight = (double)raw.head[HEAD(WEIGHT)] / scale;
@@ -204,9 +263,13 @@ relnav_error ivisnav_read(const ivisnav *device, ivisnav_result *result)
 relnav_error ivisnav_solve(ivisnav *device, const ivisnav_frame *frame, double variance, uint32_t polls, ivisnav_result *result)
 {
     ivisnav_scale scale;
-    relnav_error error = ivisnav_choose(frame, RELNAV_FRAC_AUTO, RELNAV_FRAC_AUTO, &scale, NULL);
+    relnav_error error;
 
+    if (result == NULL) {
+        return RELNAV_NULL;
+    }
     memset(result, 0, sizeof *result);
+    error = ivisnav_choose(frame, RELNAV_FRAC_AUTO, RELNAV_FRAC_AUTO, &scale, NULL);
     if (error == RELNAV_OK) {
         error = ivisnav_configure(device, variance, &scale);
     }

@@ -10,6 +10,8 @@
  *     ivisnav_choose, ivisnav_configure,
  *     ivisnav_push_frame, or ivisnav_fill, relnav_begin and a DMA of the buffer,
  *     relnav_wait, or relnav_poll after the interrupt, ivisnav_read.
+ *
+ * Each of these, where a pointer or an array that it needs is NULL: RELNAV_NULL. relnav_... functions do not look.
  */
 #ifndef IVISNAV_H
 #define IVISNAV_H
@@ -64,7 +66,8 @@ typedef struct {
     uint32_t cycles_all;   /**< to everything */
 } ivisnav_result;
 
-/** Check that there is an iVisNav core of our version. RELNAV_NO_CORE, RELNAV_WRONG_VERSION. Writes nothing to the core. */
+/** Check that there is an iVisNav core of our version. RELNAV_NO_CORE, RELNAV_WRONG_VERSION, RELNAV_MISALIGNED. Writes nothing to the
+ * core. device->core.build says what it was built with; without IVISNAV_BUILD_VERIFY its results are computed once only. */
 relnav_error ivisnav_init(ivisnav *device, relnav_port port);
 
 /** c / (4 pi f0 dt): range rate of one radian an interval. f0: modulation frequency, Hz; dt: interval, s. */
@@ -78,28 +81,32 @@ relnav_error ivisnav_row(const double r[3], const double p[3], double h[6]);
 relnav_error ivisnav_choose(const ivisnav_frame *frame, int wanted_h, int wanted_y, ivisnav_scale *scale, size_t *row);
 
 /** Set FRAC and VARIANCE for the next frames. variance: of y at unit weight, (m/s)^2; 0: the core takes rss / (n - 6).
- * RELNAV_BUSY, RELNAV_NOT_TAKEN, RELNAV_BAD_VARIANCE. */
+ * RELNAV_BUSY, RELNAV_NOT_TAKEN, RELNAV_BAD_VARIANCE; RELNAV_BAD_FRAC, RELNAV_WRONG_SCALE for a scale that is none. */
 relnav_error ivisnav_configure(ivisnav *device, double variance, const ivisnav_scale *scale);
 
 /** 64-bit beats of a frame: four a row. */
 size_t ivisnav_beats(const ivisnav_frame *frame);
 
 /** Write a frame's beats into a buffer for the stream, in order: {h1, h0}, {h3, h2}, {h5, h4}, {w, y}, the second in the low 32 bits. A
- * DMA that moves bytes in order needs a little-endian processor, and tlast on the last beat. RELNAV_NO_SPACE, RELNAV_TOO_LARGE. */
+ * DMA that moves bytes in order needs a little-endian processor, and tlast on the last beat. capacity: in beats.
+ * RELNAV_EMPTY, RELNAV_TOO_LONG, RELNAV_NO_SPACE, RELNAV_MISALIGNED. For another frame's scale what the first number that does not fit
+ * it says; then the buffer holds part of a frame. */
 relnav_error ivisnav_fill(const ivisnav_frame *frame, const ivisnav_scale *scale, uint64_t *beats, size_t capacity);
 
-/** Give the core a frame by its registers, beat by beat. RELNAV_BUSY; RELNAV_TOO_LARGE for a wrong scale, the frame is dropped. */
+/** Give the core a frame by its registers, beat by beat. The errors of relnav_begin() and of ivisnav_fill(), RELNAV_WRONG_SCALE where
+ * another scale is configured; after an error the core holds no part of the frame. */
 relnav_error ivisnav_push_frame(ivisnav *device, const ivisnav_frame *frame, const ivisnav_scale *scale);
 
-/** The words of the frame that was solved last, each read twice. RELNAV_UNSTEADY, or what FLAGS say afterwards. */
+/** The words of the frame that was solved last, each read twice. RELNAV_UNSTEADY, what FLAGS say afterwards, or RELNAV_PENDING: the
+ * frame that was begun last is not completed, its results are provisional or there are none. */
 relnav_error ivisnav_read_raw(const ivisnav *device, ivisnav_raw *raw);
 
 /** ivisnav_read_raw() in the caller's units. */
 relnav_error ivisnav_read(const ivisnav *device, ivisnav_result *result);
 
 /** Choose, configure, push, wait, read; relnav_settle() after an error, so that the next frame may come at once.
- * RELNAV_WRONG_FRAME: the core counted other rows. After an error the result is all zeros but for the flags, and the condition where that is the reason, of a frame
- * that the core gave up. polls: of relnav_wait(). */
+ * RELNAV_WRONG_FRAME: the core counted other rows. After an error the result is all zeros but for the flags, and the condition where
+ * that is the reason, of a frame that the core gave up. polls: of relnav_wait(). */
 relnav_error ivisnav_solve(ivisnav *device, const ivisnav_frame *frame, double variance, uint32_t polls, ivisnav_result *result);
 
 #ifdef __cplusplus

@@ -13,8 +13,45 @@
 
 enum { AXES = 3, MOST_BEATS = AXES + 1 }; /* of a point */
 
+/** The register FRAC of a scale. */
+static uint32_t frac_word(const oltae_scale *scale)
+{
+    return (uint32_t)scale->frac & OLTAE_FRAC_FRAC;
+}
+
+static uint32_t config_word(uint32_t config, const oltae_scale *scale)
+{
+    return (config & ~OLTAE_CONFIG_WEIGHTED) | (scale->weighted ? OLTAE_CONFIG_WEIGHTED : 0);
+}
+
+static relnav_error check_frame(const oltae_frame *frame)
+{
+    if (frame == NULL || !relnav_given(frame->a) || !relnav_given(frame->b)) {
+        return RELNAV_NULL;
+    }
+    return relnav_check_count(frame->count);
+}
+
+/** A frame together with a scale that may be another's. */
+static relnav_error check_scaled(const oltae_frame *frame, const oltae_scale *scale)
+{
+    relnav_error error = check_frame(frame);
+
+    if (error != RELNAV_OK) {
+        return error;
+    }
+    if (scale == NULL) {
+        return RELNAV_NULL;
+    }
+    return !scale->weighted == !relnav_given(frame->w) ? relnav_check_scale(scale->frac, scale->weight_scale)
+                                                       : RELNAV_WRONG_SCALE;
+}
+
 relnav_error oltae_init(oltae *device, relnav_port port)
 {
+    if (device == NULL) {
+        return RELNAV_NULL;
+    }
     memset(device, 0, sizeof *device);
     device->core.port = port;
     device->core.failures = FAILURES;
@@ -32,11 +69,9 @@ relnav_error oltae_choose(const oltae_frame *frame, int wanted, oltae_scale *sca
         row = &at;
     }
     *row = 0;
-    if (frame->count == 0) {
-        return RELNAV_EMPTY;
-    }
-    if (frame->count > RELNAV_ROWS_MAX) {
-        return RELNAV_TOO_LONG;
+    error = scale == NULL ? RELNAV_NULL : check_frame(frame);
+    if (error != RELNAV_OK) {
+        return error;
     }
     for (at = 0; at < frame->count; at++) {
         if (relnav_widen(&range, frame->a, AXES, at) != RELNAV_OK || relnav_widen(&range, frame->b, AXES, at) != RELNAV_OK) {
@@ -64,22 +99,22 @@ relnav_error oltae_configure(oltae *device, uint32_t config, double variance, co
         {OLTAE_CONFIG_REAPPLY, OLTAE_BUILD_REAPPLY},
     };
     uint32_t word;
-    relnav_error error = relnav_variance_word(variance, scale->weight_scale, &word);
+    relnav_error error = device == NULL || scale == NULL ? RELNAV_NULL : relnav_check_scale(scale->frac, scale->weight_scale);
     size_t i;
 
+    if (error == RELNAV_OK) {
+        error = relnav_variance_word(variance, scale->weight_scale, &word);
+    }
     if (error != RELNAV_OK) {
         return error;
     }
-    config &= ~OLTAE_CONFIG_WEIGHTED;
-    if (scale->weighted) {
-        config |= OLTAE_CONFIG_WEIGHTED;
-    }
+    config = config_word(config, scale);
     for (i = 0; i < sizeof options / sizeof options[0]; i++) {
         if ((config & options[i].config) != 0 && (device->core.build & options[i].build) == 0) {
             return RELNAV_NOT_BUILT;
         }
     }
-    return relnav_set(&device->core, config, (uint32_t)scale->frac & OLTAE_FRAC_FRAC, word, scale->weight_scale);
+    return relnav_set(&device->core, config, frac_word(scale), word, scale->weight_scale);
 }
 
 size_t oltae_beats(const oltae_frame *frame)
@@ -94,7 +129,13 @@ static relnav_error point_beats(const oltae_frame *frame, const oltae_scale *sca
 
     *count = 0;
     if (scale->weighted) {
-        beats[(*count)++] = relnav_weight(frame->w, point, scale->weight_scale);
+        uint32_t weight;
+        relnav_error error = relnav_weight(frame->w, point, scale->weight_scale, &weight);
+
+        if (error != RELNAV_OK) {
+            return error;
+        }
+        beats[(*count)++] = weight;
     }
     for (axis = 0; axis < AXES; axis++) {
         int32_t a;
@@ -114,9 +155,15 @@ static relnav_error point_beats(const oltae_frame *frame, const oltae_scale *sca
 
 relnav_error oltae_fill(const oltae_frame *frame, const oltae_scale *scale, uint64_t *beats, size_t capacity)
 {
-    relnav_error error = oltae_beats(frame) > capacity ? RELNAV_NO_SPACE : RELNAV_OK;
+    relnav_error error = beats == NULL ? RELNAV_NULL : check_scaled(frame, scale);
     size_t point;
 
+    if (error == RELNAV_OK && (uintptr_t)beats % sizeof *beats != 0) {
+        error = RELNAV_MISALIGNED;
+    }
+    if (error == RELNAV_OK && oltae_beats(frame) > capacity) {
+        error = RELNAV_NO_SPACE;
+    }
     for (point = 0; error == RELNAV_OK && point < frame->count; point++) {
         size_t count;
 
@@ -128,19 +175,24 @@ relnav_error oltae_fill(const oltae_frame *frame, const oltae_scale *scale, uint
 
 relnav_error oltae_push_frame(oltae *device, const oltae_frame *frame, const oltae_scale *scale)
 {
-    relnav_error error = frame->count == 0 ? RELNAV_EMPTY : relnav_begin_push(&device->core);
+    relnav_error error = device == NULL ? RELNAV_NULL : check_scaled(frame, scale);
     size_t point;
 
+    if (error == RELNAV_OK) {
+        error = relnav_check_set(&device->core, config_word(0, scale), OLTAE_CONFIG_WEIGHTED, frac_word(scale),
+                                 scale->weight_scale);
+    }
+    if (error == RELNAV_OK) {
+        error = relnav_begin_push(&device->core);
+    }
     for (point = 0; error == RELNAV_OK && point < frame->count; point++) {
         uint64_t beats[MOST_BEATS];
         size_t count;
-        size_t beat;
 
         error = point_beats(frame, scale, point, beats, &count);
-        for (beat = 0; error == RELNAV_OK && beat < count; beat++) {
-            relnav_push(&device->core, beats[beat], point + 1 == frame->count && beat + 1 == count);
-        }
-        if (error != RELNAV_OK) {
+        if (error == RELNAV_OK) {
+            relnav_push_row(&device->core, beats, count, point + 1 == frame->count);
+        } else {
             relnav_soft_reset(&device->core);
         }
     }
@@ -149,29 +201,40 @@ relnav_error oltae_push_frame(oltae *device, const oltae_frame *frame, const olt
 
 relnav_error oltae_read_raw(const oltae *device, oltae_raw *raw)
 {
-    const relnav_core *core = &device->core;
-    relnav_error error = relnav_read_twice(core, offsetof(oltae_registers, FRAME_FLAGS), 1, &raw->flags);
+    const relnav_core *core;
+    relnav_error error;
 
+    if (device == NULL || raw == NULL) {
+        return RELNAV_NULL;
+    }
+    core = &device->core;
+    error = relnav_read_twice(core, offsetof(oltae_registers, FRAME_FLAGS), 1, &raw->flags);
     if (error == RELNAV_OK) {
         error = relnav_read_twice(core, offsetof(oltae_registers, POINTS), sizeof raw->head / sizeof(uint32_t), raw->head);
     }
     if (error == RELNAV_OK) {
         error = relnav_read_twice(core, offsetof(oltae_registers, Q), sizeof raw->words / sizeof(uint32_t), raw->words);
     }
-    return error == RELNAV_OK ? relnav_failure(core, relnav_flags(core)) : error;
+    return error == RELNAV_OK ? relnav_confirm(core) : error;
 }
 
 relnav_error oltae_read(const oltae *device, oltae_result *result)
 {
-    double scale = device->core.weight_scale;
-    int covariance = (device->core.config & OLTAE_CONFIG_COVARIANCE) != 0;
     oltae_raw raw;
-    relnav_error error = oltae_read_raw(device, &raw);
+    relnav_error error;
+    double scale;
+    int covariance;
 
+    if (result == NULL) {
+        return RELNAV_NULL;
+    }
     memset(result, 0, sizeof *result);
+    error = oltae_read_raw(device, &raw);
     if (error != RELNAV_OK) {
         return error;
     }
+    scale = device->core.weight_scale;
+    covariance = (device->core.config & OLTAE_CONFIG_COVARIANCE) != 0;
     result->flags = raw.flags;
     result->count = raw.head[HEAD(POINTS)];
     result->weight = (double)raw.head[HEAD(WEIGHT)] / scale;
@@ -199,9 +262,13 @@ relnav_error oltae_solve(oltae *device, const oltae_frame *frame, uint32_t confi
                          oltae_result *result)
 {
     oltae_scale scale;
-    relnav_error error = oltae_choose(frame, RELNAV_FRAC_AUTO, &scale, NULL);
+    relnav_error error;
 
+    if (result == NULL) {
+        return RELNAV_NULL;
+    }
     memset(result, 0, sizeof *result);
+    error = oltae_choose(frame, RELNAV_FRAC_AUTO, &scale, NULL);
     if (error == RELNAV_OK) {
         error = oltae_configure(device, config, variance, &scale);
     }

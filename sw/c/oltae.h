@@ -10,6 +10,8 @@
  *     oltae_choose, oltae_configure,
  *     oltae_push_frame, or oltae_fill, relnav_begin and a DMA of the buffer,
  *     relnav_wait, or relnav_poll after the interrupt, oltae_read.
+ *
+ * Each of these, where a pointer or an array that it needs is NULL: RELNAV_NULL. relnav_... functions do not look.
  */
 #ifndef OLTAE_H
 #define OLTAE_H
@@ -69,7 +71,8 @@ typedef struct {
     uint32_t cycles_all;   /**< to everything */
 } oltae_result;
 
-/** Check that there is an OLTAE core of our version. RELNAV_NO_CORE, RELNAV_WRONG_VERSION. Writes nothing to the core. */
+/** Check that there is an OLTAE core of our version. RELNAV_NO_CORE, RELNAV_WRONG_VERSION, RELNAV_MISALIGNED. Writes nothing to the
+ * core. device->core.build says what it was built with; without OLTAE_BUILD_VERIFY its results are computed once only. */
 relnav_error oltae_init(oltae *device, relnav_port port);
 
 /** The binary point (wanted, or RELNAV_FRAC_AUTO) and the weights' scale of a frame. The errors are those of "what the caller gave";
@@ -79,20 +82,24 @@ relnav_error oltae_choose(const oltae_frame *frame, int wanted, oltae_scale *sca
 /** Set CONFIG, FRAC and VARIANCE for the next frames.
  * config: of OLTAE_CONFIG_FORBID_TURNS, _REAPPLY, _COVARIANCE; _WEIGHTED follows from the scale.
  * variance: sigma_a^2 + sigma_b^2 at unit weight, unit^2; 0: the core takes rss / (3n - 6).
- * RELNAV_BUSY, RELNAV_NOT_BUILT, RELNAV_NOT_TAKEN, RELNAV_BAD_VARIANCE. */
+ * RELNAV_BUSY, RELNAV_NOT_BUILT, RELNAV_NOT_TAKEN, RELNAV_BAD_VARIANCE; RELNAV_BAD_FRAC, RELNAV_WRONG_SCALE for a scale that is none. */
 relnav_error oltae_configure(oltae *device, uint32_t config, double variance, const oltae_scale *scale);
 
 /** 64-bit beats of a frame: three a point, and one in front with the weight. */
 size_t oltae_beats(const oltae_frame *frame);
 
 /** Write a frame's beats into a buffer for the stream, in order: {w}, {b_x, a_x}, {b_y, a_y}, {b_z, a_z}, a in the low 32 bits. A DMA
- * that moves bytes in order needs a little-endian processor, and tlast on the last beat. RELNAV_NO_SPACE, RELNAV_TOO_LARGE. */
+ * that moves bytes in order needs a little-endian processor, and tlast on the last beat. capacity: in beats.
+ * RELNAV_EMPTY, RELNAV_TOO_LONG, RELNAV_NO_SPACE, RELNAV_MISALIGNED. For another frame's scale RELNAV_WRONG_SCALE, or what the first
+ * number that does not fit it says; then the buffer holds part of a frame. */
 relnav_error oltae_fill(const oltae_frame *frame, const oltae_scale *scale, uint64_t *beats, size_t capacity);
 
-/** Give the core a frame by its registers, beat by beat. RELNAV_BUSY; RELNAV_TOO_LARGE for a wrong scale, the frame is dropped. */
+/** Give the core a frame by its registers, beat by beat. The errors of relnav_begin() and of oltae_fill(), RELNAV_WRONG_SCALE also where
+ * another scale is configured; after an error the core holds no part of the frame. */
 relnav_error oltae_push_frame(oltae *device, const oltae_frame *frame, const oltae_scale *scale);
 
-/** The words of the frame that was solved last, each read twice. RELNAV_UNSTEADY, or what FLAGS say afterwards. */
+/** The words of the frame that was solved last, each read twice. RELNAV_UNSTEADY, what FLAGS say afterwards, or RELNAV_PENDING: the
+ * frame that was begun last is not completed, its results are provisional or there are none. */
 relnav_error oltae_read_raw(const oltae *device, oltae_raw *raw);
 
 /** oltae_read_raw() in the caller's units. */

@@ -52,6 +52,9 @@ const char *relnav_error_text(relnav_error error)
         [RELNAV_TIMEOUT] = "no result after the given number of polls",
         [RELNAV_UNSTEADY] = "two readings of a result never agree",
         [RELNAV_WRONG_FRAME] = "the result is not of the frame that was given",
+        [RELNAV_NULL] = "a pointer or an array is missing",
+        [RELNAV_MISALIGNED] = "an address is not aligned: 4 bytes for registers, 8 for beats",
+        [RELNAV_WRONG_SCALE] = "the scale is not that of the frame, or not the one configured",
         [RELNAV_EMPTY] = "a frame without points or rows",
         [RELNAV_NOT_FINITE] = "a value is not finite",
         [RELNAV_TOO_LARGE] = "a value does not fit 32 bits at this binary point, or at any from -64 to 95",
@@ -69,8 +72,29 @@ const char *relnav_error_text(relnav_error error)
     return index < RELNAV_ERRORS ? texts[index] : "unknown error";
 }
 
+static relnav_error check_port(const relnav_port *port)
+{
+#ifdef RELNAV_CALLBACKS
+    if (port->read != NULL && port->write != NULL) {
+        return RELNAV_OK;
+    }
+    if (port->read != NULL || port->write != NULL) {
+        return RELNAV_NULL;
+    }
+#endif
+    if (port->base == NULL) {
+        return RELNAV_NULL;
+    }
+    return (uintptr_t)port->base % sizeof(uint32_t) == 0 ? RELNAV_OK : RELNAV_MISALIGNED;
+}
+
 relnav_error relnav_identify(relnav_core *core, uint32_t id, uint32_t version)
 {
+    relnav_error error = check_port(&core->port);
+
+    if (error != RELNAV_OK) {
+        return error;
+    }
     if (READ(core, ID) != id) {
         return RELNAV_NO_CORE;
     }
@@ -113,6 +137,7 @@ uint32_t relnav_take_interrupt(const relnav_core *core)
     uint32_t events = READ(core, IRQ_STATUS);
 
     WRITE(core, IRQ_STATUS, events);
+    (void)READ(core, IRQ_STATUS); /* the write has arrived, the line is low: no second interrupt when the handler ends */
     return events;
 }
 
@@ -182,6 +207,9 @@ relnav_error relnav_begin(relnav_core *core)
         return RELNAV_UPSET;
     }
     relnav_clear_flags(core, UINT32_MAX);
+    if ((relnav_flags(core) & core->failures) != 0) { /* it would pass for the next frame's */
+        return RELNAV_NOT_TAKEN;
+    }
     core->frame = status & OLTAE_STATUS_FRAME;
     return RELNAV_OK;
 }
@@ -201,6 +229,15 @@ void relnav_push(const relnav_core *core, uint64_t beat, int last)
     WRITE(core, DATA_A, (uint32_t)(beat & UINT32_MAX));
     WRITE(core, DATA_B, (uint32_t)(beat >> 32));
     WRITE(core, PUSH, last ? OLTAE_PUSH_LAST : 0u);
+}
+
+void relnav_push_row(const relnav_core *core, const uint64_t *beats, size_t count, int last)
+{
+    size_t i;
+
+    for (i = 0; i < count; i++) {
+        relnav_push(core, beats[i], last && i + 1 == count);
+    }
 }
 
 relnav_error relnav_failure(const relnav_core *core, uint32_t flags)
@@ -278,4 +315,26 @@ relnav_error relnav_read_twice(const relnav_core *core, size_t first, size_t cou
         }
     }
     return RELNAV_UNSTEADY;
+}
+
+relnav_error relnav_confirm(const relnav_core *core)
+{
+    relnav_error error = relnav_failure(core, relnav_flags(core));
+    uint32_t status = relnav_status(core);
+
+    if (error != RELNAV_OK) {
+        return error;
+    }
+    return (status & OLTAE_STATUS_FRAME) != core->frame && (status & OLTAE_STATUS_ALL_READY) != 0 &&
+                   (status & OLTAE_STATUS_BUSY) == 0
+               ? RELNAV_OK
+               : RELNAV_PENDING;
+}
+
+relnav_error relnav_check_set(const relnav_core *core, uint32_t config, uint32_t mask, uint32_t frac, double weight_scale)
+{
+    /* equal, not nearly: it is the same number or another frame's */
+    int same = !(weight_scale < core->weight_scale) && !(weight_scale > core->weight_scale);
+
+    return same && frac == core->frac && ((config ^ core->config) & mask) == 0 ? RELNAV_OK : RELNAV_WRONG_SCALE;
 }

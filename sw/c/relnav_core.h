@@ -42,6 +42,9 @@ typedef enum {
     RELNAV_WRONG_FRAME,
 
     /* what the caller gave */
+    RELNAV_NULL,
+    RELNAV_MISALIGNED,
+    RELNAV_WRONG_SCALE,
     RELNAV_EMPTY,
     RELNAV_NOT_FINITE,
     RELNAV_TOO_LARGE,
@@ -72,7 +75,7 @@ typedef struct {
 #endif
 } relnav_port;
 
-/** The port of a memory-mapped core; the address must be mapped as device memory. */
+/** The port of a memory-mapped core; the address, a multiple of 4, must be mapped as device memory. */
 static inline relnav_port relnav_at(uintptr_t base)
 {
     relnav_port port = {0};
@@ -130,7 +133,8 @@ enum {
 };
 
 /** What the core's init function does: check ID and VERSION (major and minor), read BUILD. Nothing is written.
- * core: failures and config_offset set, all else 0. RELNAV_NO_CORE, RELNAV_WRONG_VERSION. */
+ * core: failures and config_offset set, all else 0. RELNAV_NULL (a port without address or functions), RELNAV_MISALIGNED,
+ * RELNAV_NO_CORE, RELNAV_WRONG_VERSION. */
 relnav_error relnav_identify(relnav_core *core, uint32_t id, uint32_t version);
 
 /** The registers STATUS, FLAGS (sticky) and FRAME_FLAGS (of the last frame): see OLTAE_STATUS_..., OLTAE_FLAGS_... */
@@ -164,7 +168,7 @@ relnav_error relnav_set(relnav_core *core, uint32_t config, uint32_t frac, uint3
 /* ------------------------------------------------------------------------------------------------ frames */
 
 /** Before a frame's first beat, and before a DMA is started: clears the sticky flags. RELNAV_BUSY while a frame is open;
- * RELNAV_UPSET where the core noticed one since it was configured. */
+ * RELNAV_UPSET where the core noticed one since it was configured; RELNAV_NOT_TAKEN where a flag stays. */
 relnav_error relnav_begin(relnav_core *core);
 
 /** relnav_begin() for a frame by relnav_push(): RELNAV_BUSY also where no push would be taken. */
@@ -173,10 +177,14 @@ relnav_error relnav_begin_push(relnav_core *core);
 /** One beat by the registers; last ends the frame. No look at PUSH_READY is needed in between. */
 void relnav_push(const relnav_core *core, uint64_t beat, int last);
 
+/** The beats of one point or row; last: no other follows. */
+void relnav_push_row(const relnav_core *core, const uint64_t *beats, size_t count, int last);
+
 /** Look once at the frame that was begun: RELNAV_OK when it is solved (and verified), RELNAV_PENDING, or why it failed. */
 relnav_error relnav_poll(const relnav_core *core);
 
-/** relnav_poll() until there is an answer, polls times at most: RELNAV_TIMEOUT. */
+/** relnav_poll() until there is an answer, polls times at most: RELNAV_TIMEOUT. A poll reads two registers or more. After its last beat a
+ * frame is solved, or given up by the core's watchdog, within 4200 clocks: 1000 polls are plenty where a reading takes three or more. */
 relnav_error relnav_wait(const relnav_core *core, uint32_t polls);
 
 /** The error that flags stand for; RELNAV_OK for flags that leave a result. */
@@ -184,6 +192,12 @@ relnav_error relnav_failure(const relnav_core *core, uint32_t flags);
 
 /** Read count registers from offset first, each twice; RELNAV_UNSTEADY where two readings never agree. */
 relnav_error relnav_read_twice(const relnav_core *core, size_t first, size_t count, uint32_t *words);
+
+/** Whether the words just read are a result: what FLAGS say, or RELNAV_PENDING where the frame begun is not completed. */
+relnav_error relnav_confirm(const relnav_core *core);
+
+/** RELNAV_WRONG_SCALE where CONFIG's bits under mask, FRAC or the weights' scale are configured otherwise. */
+relnav_error relnav_check_set(const relnav_core *core, uint32_t config, uint32_t mask, uint32_t frac, double weight_scale);
 
 #ifdef __cplusplus
 }

@@ -66,7 +66,8 @@ static double power_of_two(int exponent)
     return value;
 }
 
-relnav_error relnav_to_fixed(double value, int frac, int32_t *fixed)
+/** relnav_to_fixed() for any power of two that can matter to a double. */
+static relnav_error round_scaled(double value, int power, int32_t *fixed)
 {
     parts of;
     uint64_t magnitude;
@@ -75,7 +76,7 @@ relnav_error relnav_to_fixed(double value, int frac, int32_t *fixed)
     if (!take_apart(value, &of)) {
         return RELNAV_NOT_FINITE;
     }
-    shift = of.exponent + frac;
+    shift = of.exponent + power;
     if (of.mantissa == 0 || shift < -FRACTION_BITS - 1) { /* below a half */
         magnitude = 0;
     } else if (shift < 0) {
@@ -97,6 +98,11 @@ relnav_error relnav_to_fixed(double value, int frac, int32_t *fixed)
     }
     *fixed = (int32_t)(of.negative ? -(int64_t)magnitude : (int64_t)magnitude);
     return RELNAV_OK;
+}
+
+relnav_error relnav_to_fixed(double value, int frac, int32_t *fixed)
+{
+    return frac < RELNAV_FRAC_MIN || frac > RELNAV_FRAC_MAX ? RELNAV_BAD_FRAC : round_scaled(value, frac, fixed);
 }
 
 static double larger(const relnav_range *range)
@@ -182,7 +188,7 @@ static int all_integers(relnav_reals weights, size_t count, int exponent)
         int32_t integer;
 
         /* equal, not nearly: the question is whether rounding changed anything */
-        if (relnav_to_fixed(weight, exponent, &integer) != RELNAV_OK || weight * factor < (double)integer ||
+        if (round_scaled(weight, exponent, &integer) != RELNAV_OK || weight * factor < (double)integer ||
             weight * factor > (double)integer) {
             return 0;
         }
@@ -219,23 +225,56 @@ relnav_error relnav_weight_scale(relnav_reals weights, size_t count, double *sca
     }
     *scale = all_integers(weights, count, exponent) ? power_of_two(exponent) : (double)RELNAV_WEIGHT_MAX / range.high;
     for (i = 0; i < count; i++) {
-        if (relnav_real(weights, i) > 0.0 && relnav_weight(weights, i, *scale) == 0) {
+        uint32_t weight;
+        relnav_error error = relnav_weight(weights, i, *scale, &weight);
+
+        if (error != RELNAV_OK) {
             *row = i;
-            return RELNAV_LOST_WEIGHT;
+            return error;
         }
     }
     return RELNAV_OK;
 }
 
-uint32_t relnav_weight(relnav_reals weights, size_t row, double scale)
+relnav_error relnav_weight(relnav_reals weights, size_t row, double scale, uint32_t *weight)
 {
-    int32_t integer = RELNAV_WEIGHT_MAX;
+    double value;
+    int32_t integer;
 
+    *weight = 1;
     if (!relnav_given(weights)) {
-        return 1;
+        return RELNAV_OK;
     }
-    (void)relnav_to_fixed(relnav_real(weights, row) * scale, 0, &integer);
-    return (uint32_t)(integer < RELNAV_WEIGHT_MAX ? integer : RELNAV_WEIGHT_MAX);
+    value = relnav_real(weights, row);
+    if (!(value >= 0.0)) {
+        return RELNAV_BAD_WEIGHT;
+    }
+    if (round_scaled(value * scale, 0, &integer) != RELNAV_OK || integer > RELNAV_WEIGHT_MAX) {
+        return RELNAV_TOO_LARGE;
+    }
+    if (value > 0.0 && integer == 0) {
+        return RELNAV_LOST_WEIGHT;
+    }
+    *weight = (uint32_t)integer;
+    return RELNAV_OK;
+}
+
+relnav_error relnav_check_count(size_t count)
+{
+    if (count == 0) {
+        return RELNAV_EMPTY;
+    }
+    return count <= RELNAV_ROWS_MAX ? RELNAV_OK : RELNAV_TOO_LONG;
+}
+
+relnav_error relnav_check_scale(int frac, double weight_scale)
+{
+    parts of;
+
+    if (frac < RELNAV_FRAC_MIN || frac > RELNAV_FRAC_MAX) {
+        return RELNAV_BAD_FRAC;
+    }
+    return take_apart(weight_scale, &of) && weight_scale > 0.0 ? RELNAV_OK : RELNAV_WRONG_SCALE;
 }
 
 relnav_error relnav_variance_word(double variance, double weight_scale, uint32_t *word)

@@ -64,7 +64,7 @@ typedef struct {
 /** Widen a range by one row of an array (n, columns). RELNAV_NOT_FINITE. */
 relnav_error relnav_widen(relnav_range *range, relnav_reals values, size_t columns, size_t row);
 
-/** value * 2^frac, rounded. RELNAV_NOT_FINITE; RELNAV_TOO_LARGE: not in [-2^31, 2^31 - 1]. */
+/** value * 2^frac, rounded. RELNAV_NOT_FINITE; RELNAV_TOO_LARGE: not in [-2^31, 2^31 - 1]; RELNAV_BAD_FRAC. */
 relnav_error relnav_to_fixed(double value, int frac, int32_t *fixed);
 
 /** The binary point for a range: wanted, or with RELNAV_FRAC_AUTO the largest that fits, 0 for zeros.
@@ -76,8 +76,15 @@ relnav_error relnav_choose_frac(const relnav_range *range, int wanted, int *frac
  * or RELNAV_LOST_WEIGHT is. */
 relnav_error relnav_weight_scale(relnav_reals weights, size_t count, double *scale, size_t *row);
 
-/** A weight as the core takes it, for a scale of relnav_weight_scale(); 1 where there are none. */
-uint32_t relnav_weight(relnav_reals weights, size_t row, double scale);
+/** A weight as the core takes it, for a scale of relnav_weight_scale(); 1 where there are none. For another frame's scale also
+ * RELNAV_BAD_WEIGHT, RELNAV_LOST_WEIGHT, RELNAV_TOO_LARGE (beyond 65535). */
+relnav_error relnav_weight(relnav_reals weights, size_t row, double scale, uint32_t *weight);
+
+/** Whether a frame of so many points or rows can be: RELNAV_EMPTY, RELNAV_TOO_LONG. */
+relnav_error relnav_check_count(size_t count);
+
+/** Whether a scale can be, whoever made it: RELNAV_BAD_FRAC; RELNAV_WRONG_SCALE: a factor of weights that is none. */
+relnav_error relnav_check_scale(int frac, double weight_scale);
 
 /** VARIANCE (binary32): the caller's variance at unit weight, at unit integer weight. 0: the core takes it from rss.
  * RELNAV_BAD_VARIANCE for what is negative, not finite or would be infinite, denormal or 0. */

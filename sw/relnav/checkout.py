@@ -10,7 +10,7 @@ import os
 import shutil
 from pathlib import Path
 
-from .errors import BackendError, InputError
+from .errors import BackendError, InputError, one_line
 
 _AROUND = Path(__file__).resolve().parents[2]
 _PACKAGED = Path(__file__).resolve().parent / "packaged"
@@ -52,6 +52,8 @@ def copy_rtl(folder: Path) -> int:
         if folder.exists() and (not folder.is_dir() or any(folder.iterdir())):
             raise InputError(f"{folder}: is not an empty folder; the RTL is not copied over anything")
         shutil.copytree(RTL, folder, dirs_exist_ok=True)
+    except shutil.Error as error:  # of each file that could not be copied: one is enough
+        raise InputError(f"{folder}: the RTL cannot be copied: {one_line(error.args[0][0][2])}") from None
     except OSError as error:
         raise InputError(f"{folder}: the RTL cannot be copied: {error.strerror or error}") from None
     return sum(path.is_file() for path in folder.rglob("*"))

@@ -279,11 +279,12 @@ class CoreDriver(Generic[StatusT]):
 
 @dataclass(frozen=True)
 class Build:
-    """The BUILD register: what this core was built with."""
+    """The BUILD register: what this core was built with. Without verify, results are computed once only."""
 
     weighted: bool
     covariance: bool
     reapply: bool
+    verify: bool
     mantissa: int
 
 
@@ -321,7 +322,11 @@ class OltaeDriver(CoreDriver[Status]):
         """Check that this is an OLTAE core of our version; raises BackendError that says what was found."""
         build = Oltae.BUILD.decode(self.check_identity())
         return Build(
-            bool(build["WEIGHTED"]), bool(build["COVARIANCE"]), bool(build["REAPPLY"]), build["MANTISSA"]
+            weighted=bool(build["WEIGHTED"]),
+            covariance=bool(build["COVARIANCE"]),
+            reapply=bool(build["REAPPLY"]),
+            verify=bool(build["VERIFY"]),
+            mantissa=build["MANTISSA"],
         )
 
     def configure(

@@ -172,7 +172,6 @@ class CDriver:
             "ivisnav_metres_per_second": c_double,
             "oltae_beats": c_size_t,
             "ivisnav_beats": c_size_t,
-            "relnav_weight": c_uint32,
             "relnav_finite": c_int,
         }
         for name in ("status", "flags", "frame_flags", "take_interrupt"):

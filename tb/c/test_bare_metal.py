@@ -21,7 +21,18 @@ from relnav.model.rates_core import RatesCore
 from relnav.model.raw import CoreConfig, raw_to_pose, variance_word
 from relnav.quantise import quantise
 
-from scripts.c_build import ARM, CALLBACKS, DRIVER, HOST, SOURCES, STRICT_FLAGS, missing, program, run
+from scripts.c_build import (
+    ARM,
+    CALLBACKS,
+    DRIVER,
+    HOST,
+    SOURCES,
+    STRICT_FLAGS,
+    CompileError,
+    missing,
+    program,
+    run,
+)
 
 HERE = Path(__file__).parent / "bare_metal"
 MACHINE = "qemu-system-arm"
@@ -110,11 +121,21 @@ def test_on_a_cortex_a9(access: str, tmp_path: Path) -> None:
     ends_well([MACHINE, "-M", "xilinx-zynq-a9", "-m", "128M", *quiet, *console, "-kernel", made])
 
 
-def test_the_same_on_this_machine(tmp_path: Path) -> None:
+@pytest.mark.parametrize("sanitized", [False, True], ids=["plain", "sanitized"])
+def test_the_same_on_this_machine(sanitized: bool, tmp_path: Path) -> None:
+    """Also with every access and every undefined operation watched."""
     if reason := missing(HOST):
         pytest.skip(reason)
     (tmp_path / "vectors.h").write_text(vectors())
     sources = [HERE / name for name in ("host.c", "mock.c", "main.c")]
     made = tmp_path / "test"
-    run([HOST, *STRICT_FLAGS, "-O2", CALLBACKS, "-I", DRIVER, "-I", tmp_path, "-o", made, *SOURCES, *sources])
+    options = ["-O1", "-fsanitize=address,undefined", "-fno-sanitize-recover=all"] if sanitized else ["-O2"]
+    if sanitized:
+        (tmp_path / "nothing.c").write_text("int main(void) { return 0; }\n")
+        try:
+            run([HOST, *options, "-o", made, tmp_path / "nothing.c"])
+        except CompileError:
+            pytest.skip(f"{HOST} has no sanitizers")
+    flags = [*STRICT_FLAGS, *options, CALLBACKS, "-I", DRIVER, "-I", tmp_path]
+    run([HOST, *flags, "-o", made, *SOURCES, *sources])
     ends_well([made])

@@ -85,6 +85,8 @@ def test_one_number(driver: CDriver) -> None:
             scaled = np.rint(np.ldexp(value, frac)) if math.frexp(value)[1] + frac < 1024 else math.inf
             fits = -(2.0**31) <= scaled <= 2.0**31 - 1
             expected = ("OK", int(scaled)) if fits else ("TOO_LARGE", 0)
+            if not FRAC_MIN <= frac <= FRAC_MAX:
+                expected = ("BAD_FRAC", 0)
             assert fixed(driver, value, frac) == expected, (value, frac)
     for value in (math.nan, math.inf, -math.inf):
         assert fixed(driver, value, 0) == ("NOT_FINITE", 0)

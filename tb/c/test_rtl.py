@@ -10,11 +10,11 @@ from sim.runner import ROOT, build_and_test, sources
 from tb.c.library import CDriver
 
 # Icarus simulates some 3000 clocks a second, a tenth of Verilator's here
-QUICK = ("frames", "identity", "busy")
+QUICK = ("frames", "identity", "busy", "verified", "flipped")
 
 BUILDS = {
     "oltae": ("oltae", {}),
-    "oltae-lean": ("oltae", {"WEIGHTED": 0, "COVARIANCE": 0, "REAPPLY": 0}),
+    "oltae-lean": ("oltae", {"WEIGHTED": 0, "COVARIANCE": 0, "REAPPLY": 0, "VERIFY": 0}),
     "ivisnav": ("ivisnav", {}),
 }
 
@@ -33,6 +33,7 @@ def test_on_the_rtl(build: str, simulator: str, driver: CDriver) -> None:
             "CORE": core,
             "LEAN": str(int(build == "oltae-lean")),
             "LIBRARY": str(driver.file),
+            "SIMULATOR": simulator,
             "FRAMES": "24" if simulator == "verilator" else "4",
         },
         testcase=None if simulator == "verilator" else QUICK,

@@ -3,6 +3,7 @@
 
 from __future__ import annotations
 
+import importlib.util
 import os
 import shutil
 import subprocess
@@ -121,3 +122,44 @@ def test_synthesis_is_set_up(name: str, tree: Path) -> None:
     core = CORES[name]
     wanted = {str(file.relative_to(ROOT)) for file in (*core.modules, *core.headers)}
     assert names == wanted | {"vivado/clock.xdc"}
+
+
+@pytest.mark.parametrize("name", CORES)
+def test_synthesis_needs_nothing_else(name: str, tree: Path) -> None:
+    """A whole design with the options as parameters, says Yosys; not with a file less."""
+    if importlib.util.find_spec("pyosys") is None:
+        pytest.skip("Yosys is not installed (pyosys: make setup)")
+    values = dict.fromkeys(CORES[name].module.parameters, 0)
+    code, said = run(tree, name, "synth", "--setup", parameters=[f"--{option}=0" for option in values])
+    assert code == 0, said
+    work = tree.parent / "work"
+    (description,) = work.glob("*.eda.yml")
+    found = yaml.safe_load(description.read_text())
+    assert {parameter: value["default"] for parameter, value in found["parameters"].items()} == values
+    verilog = [file for file in found["files"] if file["file_type"].startswith("verilogSource")]
+    folders = {str(Path(file["name"]).parent) for file in verilog if file.get("is_include_file")}
+    files = [file["name"] for file in verilog if not file.get("is_include_file")]
+    chparam = "".join(f" -set {option} {value}" for option, value in values.items())
+
+    def elaborate(names: Sequence[str]) -> subprocess.CompletedProcess[str]:
+        lines = [
+            f"read_verilog -defer {' '.join(f'-I{folder}' for folder in folders)} {file}" for file in names
+        ]
+        lines += [f"chparam{chparam} {found['toplevel']}", f"hierarchy -check -top {found['toplevel']}"]
+        (work / "elaborate.ys").write_text("\n".join(lines) + "\n")
+        code = "from pyosys import libyosys as y; y.run_pass('script elaborate.ys', y.Design())"
+        return subprocess.run(
+            [sys.executable, "-c", code], cwd=work, capture_output=True, text=True, check=False
+        )
+
+    done = elaborate(files)
+    assert done.returncode == 0, done.stdout + done.stderr
+    without = [
+        file for file in files if not file.endswith("rtl/gram/sign_run.v" if name == "oltae" else "top_bit.v")
+    ]
+    done = elaborate(without)
+    assert (
+        len(without) == len(files) - 1
+        and done.returncode != 0
+        and "not part of the design" in done.stdout + done.stderr
+    )

@@ -3,7 +3,9 @@
 
 from __future__ import annotations
 
+import errno
 import mmap
+import os
 import socket
 import struct
 import sys
@@ -219,6 +221,53 @@ def test_devices_that_are_not_there(tmp_path: Path) -> None:
         UioBus.named("uio0_core", sysfs=tmp_path / "sys")  # found by its name
 
 
+def test_devices_that_are_refused(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    """No right to it, a device that opens once only, one without an interrupt, an entry that vanished."""
+    device = uio_device(tmp_path, "uio0")
+    real, opened = os.open, []
+
+    def refuse(after: int, number: int) -> Callable[..., int]:
+        def opens(file: str | Path, flags: int) -> int:
+            opened.append(file)
+            if len(opened) > after:
+                raise OSError(number, os.strerror(number))
+            return real(file, flags)
+
+        return opens
+
+    for after, number, message in (
+        (0, errno.EACCES, "uio0: cannot map 4096 bytes at 0x0: Permission denied"),
+        (1, errno.EBUSY, "uio0: cannot open it for its interrupts: Device or resource busy"),
+    ):
+        opened.clear()
+        monkeypatch.setattr(os, "open", refuse(after, number))
+        with pytest.raises(BackendError, match=message):
+            UioBus(device, sysfs=tmp_path / "sys")
+    opened.clear()
+    monkeypatch.setattr(os, "open", refuse(0, errno.EPERM))
+    with pytest.raises(
+        BackendError, match="mem: cannot map 4096 bytes at 0x43c00000: Operation not permitted"
+    ):
+        DevMemBus(0x43C0_0000, file=tmp_path / "mem")
+    monkeypatch.setattr(os, "open", real)
+    bus = UioBus(device, sysfs=tmp_path / "sys")
+
+    def no_interrupt(*_: object) -> int:
+        raise OSError(errno.EIO, "Input/output error")
+
+    monkeypatch.setattr(os, "write", no_interrupt)
+    with pytest.raises(BackendError, match="uio0: cannot wait for its interrupt: Input/output error"):
+        bus.idle()
+    bus.close()
+    (tmp_path / "sys/uio0/name").unlink()
+    with pytest.raises(BackendError, match="name: No such file or directory: no such UIO device or map"):
+        UioBus.named("oltae", sysfs=tmp_path / "sys")
+    short = uio_device(tmp_path, "uio4")
+    short.write_bytes(bytes(100))
+    with pytest.raises(BackendError, match="uio4: cannot map 4096 bytes at 0x0: mmap length is greater than"):
+        UioBus(short, sysfs=tmp_path / "sys")
+
+
 def test_a_map_of_its_own(tmp_path: Path) -> None:
     """Map 2 lies at page 2 of the device, its registers where `offset` says."""
     device = uio_device(tmp_path, "uio1", size=0x800, index=2, offset=0x80)
@@ -281,6 +330,8 @@ def test_dma_transfers(tmp_path: Path, watched: type[WatchedMap]) -> None:
     assert core.frames == frames and device.sent == [24, 8]
     with pytest.raises(BackendError, match="can send 4096 bytes at a time, a frame has 4104"):
         dma.send([0] * 513)
+    with pytest.raises(BackendError, match="buffer at 0x20000004 does not begin with a whole beat"):
+        AxiDma(dma.registers, dma.buffer, 0x2000_0004)
     short, _ = dma_of(tmp_path, core, watched, length_bits=8)
     with pytest.raises(BackendError, match="can send 255 bytes"):
         short.send([0] * 32)

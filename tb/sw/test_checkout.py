@@ -3,6 +3,8 @@
 
 from __future__ import annotations
 
+import subprocess
+import sys
 from pathlib import Path
 
 import pytest
@@ -94,3 +96,18 @@ def test_an_rtl_folder_that_cannot_be_read(tmp_path: Path, monkeypatch: pytest.M
     )
     with pytest.raises(InputError, match="cannot be copied: denied"):
         checkout.copy_rtl(tmp_path / "copy")
+
+
+def test_a_full_disk(tmp_path: Path) -> None:
+    """One line about the first file, not one about each: every file of more than 1 KiB is refused."""
+    target = tmp_path / "copy"
+    program = (
+        "import resource, sys; resource.setrlimit(resource.RLIMIT_FSIZE, (1024, 1024)); "
+        "from relnav.cli import main; sys.exit(main(['rtl', '--copy', sys.argv[1]]))"
+    )
+    done = subprocess.run(
+        [sys.executable, "-c", program, str(target)], capture_output=True, text=True, check=False
+    )
+    assert (done.returncode, done.stdout) == (2, "")
+    assert done.stderr.startswith(f"relnav: {target}: the RTL cannot be copied: ")
+    assert done.stderr.count("File too large") == 1 and done.stderr.count("\n") == 1

@@ -62,8 +62,9 @@ def kind(request: pytest.FixtureRequest) -> Kind:
 def test_identify(kind: Kind) -> None:
     core = FakeCore(kind.map)
     driver: Any = kind.driver(core)
-    core.words[kind.map.BUILD.ADDRESS] = kind.map.BUILD.encode(MANTISSA=35)
-    assert driver.identify().mantissa == 35
+    for verify in (False, True):
+        core.words[kind.map.BUILD.ADDRESS] = kind.map.BUILD.encode(MANTISSA=35, VERIFY=verify)
+        assert (driver.identify().mantissa, driver.identify().verify) == (35, verify)
     core.words[kind.map.VERSION.ADDRESS] = kind.map.VERSION.RESET ^ 1  # another patch
     driver.identify()
     core.words[kind.map.VERSION.ADDRESS] = kind.map.VERSION.encode(MAJOR=9, MINOR=8, PATCH=7)

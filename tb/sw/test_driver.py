@@ -5,7 +5,7 @@ from __future__ import annotations
 
 import numpy as np
 import pytest
-from relnav.driver import OltaeDriver, beats_of
+from relnav.driver import Build, OltaeDriver, beats_of
 from relnav.errors import BackendError
 from relnav.model.raw import CoreConfig, float_to_word
 from relnav.quantise import QuantisedFrame
@@ -35,7 +35,7 @@ def test_build() -> None:
     core = FakeCore(Oltae)
     core.words[Oltae.BUILD.ADDRESS] = Oltae.BUILD.encode(WEIGHTED=1, REAPPLY=1, MANTISSA=35)
     build = OltaeDriver(core).identify()
-    assert (build.weighted, build.covariance, build.reapply, build.mantissa) == (True, False, True, 35)
+    assert build == Build(weighted=True, covariance=False, reapply=True, verify=False, mantissa=35)
 
 
 def test_a_frame() -> None:

@@ -31,6 +31,10 @@ class AxiDma:
     def __init__(
         self, registers: MemoryMap, buffer: MemoryMap, physical: int, *, length_bits: int = 23
     ) -> None:
+        if physical % 8:
+            raise BackendError(
+                f"the DMA's buffer at 0x{physical:x} does not begin with a whole beat of 8 bytes"
+            )
         self.registers, self.buffer, self.physical = registers, buffer, physical
         self.capacity = min(8 * (len(buffer.words) // 2), (1 << length_bits) - 1)
         self._sending = False

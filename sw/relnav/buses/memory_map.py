@@ -162,14 +162,18 @@ class UioBus(MappedBus):
             raise BackendError(f"{device}: map {index} has {size} bytes, a core needs {CORE_BYTES}")
         # a map's number is the page at which mmap finds it
         super().__init__(MemoryMap(device, index * mmap.PAGESIZE + inside, size), dma)
-        self._events = os.open(device, os.O_RDWR)
+        try:
+            self._events = os.open(device, os.O_RDWR)
+        except OSError as error:
+            self.registers.close()
+            raise BackendError(f"{device}: cannot open it for its interrupts: {error.strerror}") from None
 
     @classmethod
     def named(cls, name: str, dma: Dma | None = None, *, sysfs: str | Path = SYSFS) -> UioBus:
         """The device that the kernel calls `name`, such as the node of the device tree."""
         folders = sorted(Path(sysfs).glob("uio*"))
         for folder in folders:
-            if (folder / "name").read_text().strip() == name:
+            if _text(folder / "name").strip() == name:
                 return cls(Path("/dev") / folder.name, dma, sysfs=sysfs)
         raise BackendError(f"no UIO device is called {name!r} ({len(folders)} in {sysfs})")
 
@@ -178,11 +182,15 @@ class UioBus(MappedBus):
 
         The kernel masks the interrupt when it comes, and this unmasks it: as its line is a level, clear it in
         the core (CoreDriver.clear_interrupts, which `feed` does) or the next wait ends at once.
+        Raises BackendError where the device has no interrupt.
         """
-        os.write(self._events, struct.pack("=I", 1))
-        if not select.select([self._events], [], [], seconds)[0]:
-            return False
-        os.read(self._events, 4)  # the number of interrupts so far
+        try:
+            os.write(self._events, struct.pack("=I", 1))
+            if not select.select([self._events], [], [], seconds)[0]:
+                return False
+            os.read(self._events, 4)  # the number of interrupts so far
+        except OSError as error:
+            raise BackendError(f"{self.device}: cannot wait for its interrupt: {error.strerror}") from None
         return True
 
     def idle(self) -> None:
@@ -195,11 +203,17 @@ class UioBus(MappedBus):
         os.close(self._events)
 
 
+def _text(file: Path) -> str:
+    """An entry of sysfs."""
+    try:
+        return file.read_text()
+    except OSError as error:
+        raise BackendError(f"{file}: {error.strerror}: no such UIO device or map") from None
+
+
 def _number(file: Path) -> int:
     """A hexadecimal number of sysfs."""
     try:
-        return int(file.read_text(), 16)
-    except OSError as error:
-        raise BackendError(f"{file}: {error.strerror}: no such UIO device or map") from None
+        return int(_text(file), 16)
     except ValueError as error:
         raise BackendError(f"{file}: {one_line(error)}") from None

@@ -17,8 +17,9 @@ from .raw import FAILURES, RESULT_WORDS, RawRates
 
 @dataclass(frozen=True)
 class Build:
-    """The BUILD register: what this core was built with."""
+    """The BUILD register: what this core was built with. Without verify, results are computed once only."""
 
+    verify: bool
     mantissa: int
 
 
@@ -47,7 +48,8 @@ class IvisnavDriver(CoreDriver[Status]):
 
     def identify(self) -> Build:
         """Check that this is an iVisNav core of our version; raises BackendError that says what was found."""
-        return Build(Ivisnav.BUILD.MANTISSA.get(self.check_identity()))
+        build = Ivisnav.BUILD.decode(self.check_identity())
+        return Build(verify=bool(build["VERIFY"]), mantissa=build["MANTISSA"])
 
     def configure(
         self, *, frac_h: int, frac_y: int, variance: float = 0.0, weight_scale: float = 1.0

@@ -153,6 +153,8 @@ static void check_oltae(void)
     size_t row;
 
     mock_start(&core);
+    CHECK(oltae_init(&device, relnav_at(0)) == RELNAV_NULL);
+    CHECK(oltae_init(&device, relnav_at(MOCK_BASE + 2)) == RELNAV_MISALIGNED);
     CHECK(oltae_init(&device, port_at(EMPTY_BASE)) == RELNAV_NO_CORE);
     CHECK(ivisnav_init(&other, port_at(MOCK_BASE)) == RELNAV_NO_CORE);
     CHECK(oltae_init(&device, port_at(MOCK_BASE)) == RELNAV_OK);
@@ -183,6 +185,9 @@ static void check_oltae(void)
     check_shared(&device.core, oltae_wanted, OLTAE_BEATS);
     CHECK(oltae_push_frame(&device, &frame, &scale) == RELNAV_OK);
     CHECK(oltae_configure(&device, 0, 0.0, &scale) == RELNAV_BUSY);
+    CHECK(relnav_poll(&device.core) == RELNAV_PENDING);
+    CHECK(relnav_status(&device.core) % 8 == OLTAE_STATE_VERIFY); /* the results stand, but are not verified */
+    CHECK(oltae_read(&device, &result) == RELNAV_PENDING && result.count == 0);
     CHECK(relnav_wait(&device.core, POLLS) == RELNAV_OK);
     CHECK(oltae_read_raw(&device, &raw) == RELNAV_OK && same(raw.words, oltae_words, sizeof oltae_words));
     mock_flag(OLTAE_FLAGS_ILL_CONDITIONED); /* which leaves the result */

@@ -1,10 +1,10 @@
 /* SPDX-License-Identifier: Apache-2.0
- * A core that knows one frame: it compares the beats, takes some looks at STATUS to "compute", and shows the results given. Anything
- * else is TOO_FEW. It serves both cores, whose control registers are the same. */
+ * A core that knows one frame: it compares the beats, takes some looks at STATUS to "compute", and shows the results given, for the
+ * last of these looks provisionally. Anything else is TOO_FEW. It serves both cores, whose control registers are the same. */
 #include "board.h"
 #include "oltae_registers.h"
 
-enum { REGISTERS = sizeof(oltae_registers) / sizeof(uint32_t), LOOKS = 5 };
+enum { REGISTERS = sizeof(oltae_registers) / sizeof(uint32_t), LOOKS = 5, VERIFYING = 3 };
 
 #define AT(name) (offsetof(oltae_registers, name) / sizeof(uint32_t))
 
@@ -19,7 +19,10 @@ static void set_state(uint32_t state, int busy)
     words[AT(STATUS)] &= OLTAE_STATUS_FRAME;
     words[AT(STATUS)] |= state | (busy ? OLTAE_STATUS_BUSY : 0) | (state <= OLTAE_STATE_LOAD ? OLTAE_STATUS_PUSH_READY : 0);
     if (state == OLTAE_STATE_DONE) {
-        words[AT(STATUS)] |= OLTAE_STATUS_PUSH_READY | OLTAE_STATUS_ALL_READY;
+        words[AT(STATUS)] |= OLTAE_STATUS_PUSH_READY;
+    }
+    if (state == OLTAE_STATE_DONE || state == OLTAE_STATE_VERIFY) {
+        words[AT(STATUS)] |= OLTAE_STATUS_ALL_READY;
     }
 }
 
@@ -57,7 +60,7 @@ static void take(uint64_t beat, int last)
     }
 }
 
-static void solve(void)
+static void show(void)
 {
     size_t i;
 
@@ -67,6 +70,11 @@ static void solve(void)
     for (i = 0; i < mock->result_count; i++) {
         words[AT(Q) + i] = mock->results[i];
     }
+    set_state(OLTAE_STATE_VERIFY, 1);
+}
+
+static void finish_frame(void)
+{
     words[AT(STATUS)] += UINT32_C(1) << OLTAE_STATUS_FRAME_SHIFT;
     set_state(OLTAE_STATE_DONE, 0);
     taken = 0;
@@ -93,8 +101,13 @@ void mock_start(const mock_core *core)
 uint32_t mock_read(void *context, uint32_t offset)
 {
     (void)context;
-    if (offset == offsetof(oltae_registers, STATUS) && looks > 0 && --looks == 0) {
-        solve();
+    if (offset == offsetof(oltae_registers, STATUS) && looks > 0) {
+        looks--;
+        if (looks == VERIFYING) {
+            show();
+        } else if (looks == 0) {
+            finish_frame();
+        }
     }
     return offset / sizeof(uint32_t) < REGISTERS ? words[offset / sizeof(uint32_t)] : 0xDEADBEEF;
 }
