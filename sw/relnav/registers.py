@@ -164,7 +164,7 @@ class Ivisnav:
         FIELDS = {"FRAC_H": FRAC_H, "FRAC_Y": FRAC_Y}
 
     class VARIANCE(Register):
-        """Variance. Locked while busy. Of y at unit weight, in the square of y's unit, binary32; 0: use rss / (n - 6), n counting the rows of positive weight."""
+        """Variance. Locked while busy. Of y at unit weight, in the square of y's unit, binary32; 0: use rss / (n - 6), n counting the rows of positive weight. Not checked (the drivers do): below 2^-126 it counts as 0; where it is negative or not finite the covariance means nothing, without a flag."""
 
         ADDRESS = 0x02C
         ACCESS = "rw"
@@ -475,7 +475,7 @@ class Oltae:
         FIELDS = {"FRAC": FRAC}
 
     class VARIANCE(Register):
-        """Variance. Locked while busy. sa^2 + sb^2 at unit weight, binary32, its sign ignored; 0: use rss / (3n - 6), n counting the points of positive weight."""
+        """Variance. Locked while busy. sa^2 + sb^2 at unit weight, binary32; 0: use rss / (3n - 6), n counting the points of positive weight. Not checked (the drivers do): below 2^-126 it counts as 0; where it is negative or not finite the covariances mean nothing, without a flag."""
 
         ADDRESS = 0x02C
         ACCESS = "rw"

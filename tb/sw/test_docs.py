@@ -11,7 +11,7 @@ from typing import Any
 import pytest
 from relnav.registers import Ivisnav, Oltae
 
-from scripts import ivisnav_sheet, oltae_sheet
+from scripts import ivisnav_sheet, oltae_sheet, readme_sim
 from scripts.marked import fill
 from sim.sources import ROOT, sources
 
@@ -91,6 +91,25 @@ def test_a_data_sheet_says_all(page: str, core: Any) -> None:
     rows = [line.strip("| ").split(" | ") for line in errors.splitlines() if re.match(r"\| [A-Z_]+ \|", line)]
     assert {row[0] for row in rows} == set(core.FLAGS.FIELDS)
     assert all(len(row) == 5 and all(row) for row in rows)
+
+
+@pytest.mark.parametrize(
+    ("block", "builds"),
+    [
+        ("cores", [("oltae_top", "full"), ("oltae_top", "lean"), ("ivisnav_top", "full")]),
+        ("numbers", [("oltae_top", "full"), ("oltae_top", "lean")]),
+        ("ivisnav", [("ivisnav_top", "full")]),
+    ],
+)
+def test_readme_has_the_present_areas_and_clocks(block: str, builds: list[tuple[str, str]]) -> None:
+    """`make docs` writes them from syn/results.json; both pages of numbers must be of one run."""
+    text = (
+        (ROOT / "README.md").read_text().split(f"<!-- {block}:begin -->")[1].split(f"<!-- {block}:end -->")[0]
+    )
+    syn = readme_sim.load("syn/results.json")
+    for top, build in builds:
+        assert readme_sim.area(syn, top, build) in text
+        assert readme_sim.clock(syn, top) in text
 
 
 def test_fill(tmp_path: Path) -> None:
