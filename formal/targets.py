@@ -19,8 +19,14 @@ VOTED = "trust/voted_register.v"
 TWIN = "trust/twin_register.v"
 DIGIT = "arith/srt_digit.v"
 RECIPROCAL = "arith/reciprocal.v"
+DIVIDE = "arith/float_divide.v"
 STORE = "axi/result_store.v"
 CELL = "gram/mac_cell.v"
+RING = "gram/ring_store.v"
+RESIDUE_MAC = "gram/residue_mac.v"
+COEFFICIENTS = "gram/moment_coefficients.v"
+ITEMS = "gram/item_residue.v"
+BEATS = "gram/frame_residue.v"
 RUN = "gram/sign_run.v"
 NORMALISER = "gram/normaliser.v"
 RECOMBINE = "gram/recombine.v"
@@ -56,7 +62,7 @@ SLAVE_PROTOCOL = faults(
     ("wready_when_free", DATA_FREE, DATA_FREE.replace("!data_full", "!data_full && address_full")),
     ("b_error", "write_failed <= write_error || !write_fits;", "write_failed <= write_error;"),
     ("write_once", "= write_go && write_fits;", "= write_go;"),
-    ("strobe_handed_on", "write_strobe <= s_axil_wstrb;", "write_strobe <= 4'hF;"),
+    ("strobe_handed_on same_write_data", "write_strobe <= s_axil_wstrb;", "write_strobe <= 4'hF;"),
     ("write_handed_on", "if (s_axil_wready) begin", "if (s_axil_wvalid) begin"),
     (
         "parity_handed_on",
@@ -65,11 +71,11 @@ SLAVE_PROTOCOL = faults(
     ),
     ("no_false_alarm", "write_parity <= write_odd;", "write_parity <= {write_odd[3:1], write_odd[1]};"),
     (
-        "b_reset",
+        "b_reset same_write_state",
         ") write_register (\n      .clk(clk),\n      .rst(rst),",
         ") write_register (\n      .clk(clk),\n      .rst(1'b0),",
     ),
-    ("r_stays", "capture || (s_axil_rvalid && !s_axil_rready)}", "capture}"),
+    ("r_stays same_read_state", "capture || (s_axil_rvalid && !s_axil_rready)}", "capture}"),
     ("r_stays", "if (capture) s_axil_rdata <= read_data;", "s_axil_rdata <= read_data;"),
     (
         "r_needs_request",
@@ -78,11 +84,19 @@ SLAVE_PROTOCOL = faults(
     ),
     ("arready_when_free", IDLE_AGAIN, IDLE_AGAIN.replace("capture || ", "")),
     ("arready_comes", IDLE_AGAIN, IDLE_AGAIN.replace("issue ||", "issue || s_axil_arvalid ||")),
-    ("r_answer", "if (go) read_failed <= read_error || !read_aligned;", "if (go) read_failed <= read_error;"),
+    (
+        "r_answer same_read_failed",
+        "if (go) read_failed <= read_error || !read_aligned;",
+        "if (go) read_failed <= read_error;",
+    ),
     ("r_comes", "capture || (s_axil_rvalid &&", "(capture && s_axil_rready) || (s_axil_rvalid &&"),
     ("read_once", "= issue && read_aligned;", "= issue;"),
     ("read_once", "accept || (issue && read_wait)", "accept"),
-    ("read_handed_on", "if (s_axil_arready) read_address", "if (s_axil_arvalid) read_address"),
+    (
+        "read_handed_on same_read_address",
+        "if (s_axil_arready) read_address",
+        "if (s_axil_arvalid) read_address",
+    ),
     (
         "r_reset",
         ") read_register (\n      .clk(clk),\n      .rst(rst),",
@@ -97,6 +111,15 @@ SLAVE_PINS = faults(
         "ready_valid_registered",
         IDLE_AGAIN,
         IDLE_AGAIN.replace("s_axil_rvalid", "(s_axil_rvalid && !s_axil_rready)"),
+    ),
+) + (
+    Broken(
+        "dependence_bmc",
+        SLAVE,
+        "  wire issue, capture;\n",
+        "  wire issue, capture, held;\n  assign capture = held && !s_axil_rready;\n",
+        "same_state",
+        (("  .q  ({issue, capture,", "  .q  ({issue, held,"),),
     ),
 )
 
@@ -115,7 +138,7 @@ STORE_FAULTS = faults(
     ("committed_read", ": read_index < LAST_FIRST ?", ": read_index < LAST_FIRST - 1 ?"),
     ("committed_read", "write_index < LAST_FIRST ? bank[1]", "write_index < LAST_FIRST ? bank[0]"),
     ("silent", "read_valid && !write_valid ?", "!write_valid ?"),
-    ("reset_bank", ".rst(rst),", ".rst(1'b0),"),
+    ("reset_bank same_bank", ".rst(rst),", ".rst(1'b0),"),
 )
 
 LOADER_FRONT = (
@@ -133,7 +156,7 @@ LOADER_FRONT = (
         ("beat_stays", VALID, "assign beat_valid = to_array && valid && !weighted;"),
         ("beat_unchanged", "assign beat_data = from_push ?", "assign beat_data = push_valid ?"),
         ("beat_in_place", "(closing && !beat_weighted ?", "(closing ?"),
-        ("weight_right", ".d(beat_data[15:0]),", ".d({1'b0, beat_data[14:0]}),"),
+        ("weight_right same_weight", ".d(beat_data[15:0]),", ".d({1'b0, beat_data[14:0]}),"),
         ("mode_right", "assign beat_weighted = mode;", "assign beat_weighted = weighted;"),
         ("opens", "assign clear = !open && accept &&", "assign clear = !open &&"),
         ("clears", "assign frame_start = clear;", "assign frame_start = clear && !push_valid;"),
@@ -144,7 +167,7 @@ LOADER_FRONT = (
         ("closed_by_reset", "if (soft_reset) next_state = IDLE;", ""),
         ("no_beat_made", "|| (give_up && load)) next_state = SWALLOW;", ") next_state = SWALLOW;"),
         ("open_right", "assign open = load || swallow;", "assign open = load;"),
-        ("rows_right", "count  <= count + 16'd1;", "count  <= count + {15'd0, !beat_last};"),
+        ("rows_right same_state", "count  <= count + 16'd1;", "count  <= count + {15'd0, !beat_last};"),
         ("upset_told", "upset <= (differ || give_up) && load", "upset <= (differ || give_up)"),
         ("one_source", "assign s_axis_tready = ready && !from_push;", "assign s_axis_tready = ready;"),
         (
@@ -220,8 +243,13 @@ STATE_FAULTS = (
         ),
         ("commit_in_compute", "assign commit = done & {3{computing}};", "assign commit = done;"),
         ("done_held", "else if (acknowledge) state_next = IDLE;", "else state_next = IDLE;"),
-        ("accept_when_idle", "assign accept = ~busy;", "assign accept = state == IDLE;"),
-        ("begins_accepted", "assign accept = ~busy;", "assign accept = 1'b1;"),
+        ("accept_when_idle", "(state_next == IDLE || state_next == DONE)", "(state_next == IDLE)"),
+        (
+            "begins_accepted",
+            "(state_next == IDLE || state_next == DONE)",
+            "(state_next == IDLE || state_next == DONE || done[0])",
+        ),
+        ("state_told", "assign loading = state == LOADING;", "assign loading = state[0];"),
         (
             "idle_left",
             "IDLE: if (frame_start) state_next",
@@ -250,6 +278,11 @@ STATE_FAULTS = (
         LOADER,
         ("loads_only", "if (soft_reset) next_state = IDLE;", ""),
         ("ends_loaded", "if (soft_reset) next_state = IDLE;", ""),
+        (
+            "never_lost same_state",
+            "assign frame_dropped = ends && !frame_end;",
+            "assign frame_dropped = ends && !frame_end && !bad_tlast;",
+        ),
     ),
 )
 
@@ -265,7 +298,7 @@ FILE_FAULTS = (
         ("read_error", ".read_error(!read_mapped)", ".read_error(1'b0)"),
         ("read_returns", "word_pick[0] ? weight : data_b", "word_pick[0] ? data_b : weight"),
         ("read_returns", READ_BITS, READ_BITS.replace("read_low && ", "")),
-        ("read_returns", "constants <= VERSION_RESET;", "constants <= ID;"),
+        ("read_returns same_fetched", "constants <= VERSION_RESET;", "constants <= ID;"),
         (
             "results_asked",
             "assign result_valid = read_valid && read_mapped &&",
@@ -286,7 +319,7 @@ FILE_FAULTS = (
         ("control_pulses", "to == CONTROL_ADDRESS[6:2] && write_strobe[0];", "to == CONTROL_ADDRESS[6:2];"),
         ("push_written", "wire push_taken = to_push && !push_locked;", "wire push_taken = to_push;"),
         (
-            "push_stays",
+            "push_stays same_words",
             "if (to_data_b && write_strobe[b] && !push_waits)",
             "if (to_data_b && write_strobe[b])",
         ),
@@ -312,14 +345,19 @@ FILE_FAULTS = (
             "variance_parity[b] <= write_parity[b];",
             "variance_parity[b] <= write_parity[0];",
         ),
-        ("no_false_alarm", "variance_parity[b] <= ~^", "variance_parity[b] <= ^"),
+        ("no_false_alarm same_parity", "variance_parity[b] <= ~^", "variance_parity[b] <= ^"),
     ),
     *faults(
         "full_bmc",
         SLAVE,
         ("b_stays", "write_go || (s_axil_bvalid && !s_axil_bready)}", "write_go}"),
         ("r_stays", "capture || (s_axil_rvalid && !s_axil_rready)}", "capture}"),
-        ("read_answer_due", "accept || (issue && read_wait)", "accept"),
+        ("read_answer_due same_bus", "accept || (issue && read_wait)", "accept"),
+        ("one_stage", IDLE_AGAIN, IDLE_AGAIN.replace("capture || ", "")),
+        ("same_failed", "read_failed <= read_error || !read_aligned;", "read_failed <= read_error;"),
+        ("same_read", "if (s_axil_arready) read_address", "if (s_axil_arvalid) read_address"),
+        ("same_address", "write_address_parity <= write_address_odd;", "write_address_parity <= 1'b0;"),
+        ("same_data", "write_parity <= write_odd;", "write_parity <= {write_odd[3:1], write_odd[1]};"),
     ),
     *faults(
         "full_bmc",
@@ -382,8 +420,57 @@ RECIPROCAL_FAULTS = faults(
     RECIPROCAL,
     ("quotient_right", "divisor[34] ? 5'sd1 : -5'sd1", "-5'sd1"),
     ("digits_right", "positive ? size - 3'd1 : ~size;", "positive ? size - 3'd1 : -size;"),
+    ("digit_legal", "positive ? size - 3'd1 : ~size;", "size - 3'd1;"),
+    ("done_on_time", "assign done = step == LAST[3:0];", "assign done = step == DIGITS[3:0];"),
+    ("same_step", "(step == 4'd0 || step == LAST[3:0])", "step == LAST[3:0]"),
+    ("same_divisor", "divisor  <= value[34:0];", "divisor  <= {value[34:1], 1'b0};"),
+    ("remainder_exact", "remainder <= 35'h080000000;", "remainder <= 35'h080000001;"),
+    ("exact", "else remainder <= next;", "else remainder <= next + {34'd0, step == DIGITS[3:0]};"),
+    ("exponent_right", "result = {1'b0, exponent,", "result = {1'b0, exponent + 12'd1,"),
     ("operands_fit", "seven    <= {leading, 3'd0} -", "seven    <= {leading, 3'd0} +"),
     ("same_exponent", "exponent <= -12'd65 + ~value[46:35];", "exponent <= -12'd64 + ~value[46:35];"),
+)
+
+FLUSH_FAULTS = faults(
+    "flush_anywhere",
+    DIVIDE,
+    ("same_step", "step == LAST[3:0]) ? 4'd0", "step == 4'd15) ? 4'd0"),
+    ("done_on_time", "done <= finish & ~rst;", "done <= finish;"),
+    ("same_kinds", "zero     <= x_zero | y_ones;", "zero     <= x_zero;"),
+    ("normalised", "if (start) held <=", "if (start & ~y[0]) held <="),
+    ("same_range", "above_128  <= difference > 128;", "above_128  <= difference >= 128;"),
+    (
+        "operands_fit",
+        "five      <= {1'b0, leading, 2'd0} + {3'd0, leading};",
+        "five      <= {1'b0, leading, 2'd0};",
+    ),
+    ("same_divisor", "divisor   <= y_f;", "divisor   <= x_f;"),
+    ("remainder_exact", "remainder <= {3'd0, x_f};", "remainder <= {3'd0, x_f[23:1], 1'b0};"),
+    ("same_digits", "whole <= {opposite ?", "whole <= {positive ?"),
+    ("exact", "else remainder <= next;", "else remainder <= next ^ {26'd0, step == 4'd9};"),
+    (
+        "quotient_in_range floor_in_range",
+        "else remainder <= next;",
+        "else remainder <= next ^ {27{step == 4'd9}};",
+    ),
+    ("stays", "if (finish) begin", "if (finish | done) begin"),
+    ("rounded_once", "wire sticky = |remainder |", "wire sticky = |remainder[26:1] |"),
+    ("rounded_once", "wire up = (guard & (lost | fraction[0])) | edge_case;", "wire up = guard | edge_case;"),
+    ("rounded_once", "(is_m127 & high) |", "(is_m127 & high & lost) |"),
+    ("rounded_once", "assign over = above_128 | (is_128 & high);", "assign over = above_128;"),
+    ("rounded_once", "if (nan) quotient[22] <= 1'b1;", "if (nan & ~zero) quotient[22] <= 1'b1;"),
+)
+
+GRADUAL_FAULTS = faults(
+    "gradual_anywhere",
+    DIVIDE,
+    ("same_operands", "x_zeros    <= x_count;", "x_zeros    <= {x_count[4:1], 1'b0};"),
+    ("normalised", "y_left <= y_raw << y_zeros;", "y_left <= y_raw << y_zeros[3:0];"),
+    ("same_kept", "kept_sticky <= sticky;", "kept_sticky <= |remainder;"),
+    ("rounded_once", "|short[9:5] ? 5'd31 :", "|short[9:6] ? 5'd31 :"),
+    ("rounded_once", "wire tiny = short > 0;", "wire tiny = short > 1;"),
+    ("rounded_once", "assign lost = kept_sticky |", "assign lost = 1'b0 |"),
+    ("rounded_once", "assign over = exponent > 254;", "assign over = exponent > 255;"),
 )
 
 RUN_FAULTS = faults(
@@ -417,7 +504,42 @@ CELL_FAULTS = faults(
         "{{SUM_BITS - X_BITS - Y_BITS{1'b0}}, product}",
     ),
     ("sum_exact", "sum <= extended + addend;", "sum <= (extended + addend) <<< 15 >>> 15;"),
-    ("same_addend", "if (addend_clear) addend <= 0;\n    else if (addend_load)", "if (addend_load)"),
+    (
+        "same_addend addend_bounded",
+        "if (addend_clear) addend <= 0;\n    else if (addend_load)",
+        "if (addend_load)",
+    ),
+    ("sum_bounded", "if (clear) sum <= 0;\n    else if (accumulate)", "if (accumulate)"),
+)
+
+RING_FAULTS = (
+    *faults(
+        "three_bmc",
+        RING,
+        ("then_comes", "else if (advance) ring <= from_sum;", "else ring <= from_sum;"),
+        (
+            "then_comes all_cleared",
+            "if (clear) ring <= 0;\n        else if (advance) ring <= from_sum;",
+            "if (advance) ring <= from_sum;",
+        ),
+    ),
+    *faults(
+        "three_bmc",
+        CELL,
+        ("next_comes", "else if (addend_load) addend", "else if (addend_load && !skip) addend"),
+        ("last_is_sum", "else if (accumulate) sum <= extended + addend;", "else sum <= extended + addend;"),
+    ),
+)
+
+FOUR_FAULTS = faults(
+    "four_bmc",
+    RING,
+    (
+        "newest_waits",
+        "{ring[(DEPTH-1)*BITS-1:0], from_sum}",
+        "{from_sum, ring[(DEPTH-1)*BITS-1:0]}",
+    ),
+    ("then_comes", "ring[DEPTH*BITS-1-:BITS];", "ring[BITS-1:0];"),
 )
 
 RECOMBINE_FAULTS = faults(
@@ -433,6 +555,22 @@ RECOMBINE_FAULTS = faults(
     ),
 )
 
+COEFFICIENT_FAULTS = faults(
+    "array_bmc",
+    COEFFICIENTS,
+    ("bit_seen", "RING == 0 && k < 28 && k != 24;", "RING == 0 && k < 27 && k != 24;"),
+    ("sums_differ", "LANE == 1 || LANE == 4 || LANE == 5 ? 1 : 0;", "LANE == 1 || LANE == 4 ? 1 : 0;"),
+    ("taken_once", "k == 56 || k == 57 ? 1 : 0;", "k == 56 || k == 57 ? 3 : 0;"),
+)
+
+JUDGE_FAULTS = faults(
+    "judge_bmc",
+    ITEMS,
+    ("on_time", "checked  <= ends[6] && rounds[1] &&", "checked  <= ends[6] && rounds[0] &&"),
+    ("no_false_alarm", "&& sum[17:0] != 18'd0;", ";"),
+    ("none_missed", "sum[17:0] != 18'd0;", "sum[17:1] != 17'd0;"),
+)
+
 GROUPS = (
     Group("axil_slave", "protocol_prove", "AXI4-Lite: answers, stability, SLVERR, accesses", SLAVE_PROTOCOL),
     Group("axil_slave", "dependence_prove", "no ready or valid depends on an input of its clock", SLAVE_PINS),
@@ -444,7 +582,7 @@ GROUPS = (
             faults(f"{copy}_bmc", VOTED, (label, MAJORITY, f"assign q = {fault};")),
         )
         for copy, label, fault in (
-            ("first", "b_stays", "first"),
+            ("first", "b_stays same_write_address", "first"),
             ("second", "r_stays", "second & (first | third)"),
             ("third", "awready_when_free", "third | (first & second)"),
         )
@@ -513,6 +651,25 @@ GROUPS = (
         "2^61 / m towards zero for every 35-bit m, with srt_digit by its contract",
         RECIPROCAL_FAULTS,
     ),
+    *(
+        Group(
+            "float_divide",
+            f"{kind}_{part}",
+            f"{about}, {operands}",
+            faulty if part == "rounding" else (),
+        )
+        for kind, operands, faulty in (
+            ("flush", "denormals as 0", FLUSH_FAULTS),
+            ("gradual", "gradual underflow", GRADUAL_FAULTS),
+        )
+        for part, about in (
+            ("remainder", "x / y of every pair: 8^k x_f = q y_f + r, with srt_digit by its contract"),
+            ("digits", "the registers are that quotient"),
+            ("exact", "rounded down it is x_f / y_f 2^25"),
+            ("rounding", "it is rounded once, to nearest even, in time"),
+            ("reset", "what these presume holds after a reset"),
+        )
+    ),
     Group("sign_run", "bmc", "exact for all inputs", RUN_FAULTS),
     Group(
         "normaliser",
@@ -540,6 +697,130 @@ GROUPS = (
     Group("normaliser", "lower_130_bmc", "the same, 130 bits"),
     Group(
         "mac_cell", "prove", "48 bits never overflow in a frame of 65535 rows; the sum is exact", CELL_FAULTS
+    ),
+    Group(
+        "ring_store",
+        "three_prove",
+        "three accumulators that go round with mac_cell: each gets its own products, none another's",
+        RING_FAULTS,
+    ),
+    Group("ring_store", "four_prove", "the same, four accumulators", FOUR_FAULTS),
+    Group(
+        "residue_mac",
+        "plus_bmc",
+        "sum of (x + y) factor, of reduced width",
+        faults(
+            "plus_bmc",
+            RESIDUE_MAC,
+            ("sum_right", "sum <= extended + base;", "sum <= extended + sum;"),
+            ("sum_right", "product <= term * held;", "product <= term * factor;"),
+        ),
+    ),
+    Group(
+        "residue_mac",
+        "minus_bmc",
+        "the same with x - y",
+        faults("minus_bmc", RESIDUE_MAC, ("sum_right", "wide_x - wide_y;", "wide_y - wide_x;")),
+    ),
+    Group(
+        "moment_coefficients",
+        "array_bmc",
+        "a wrong bit of a sum changes it modulo 2^16 + 1; no two sums weigh alike; gram_array",
+        COEFFICIENT_FAULTS,
+    ),
+    Group(
+        "moment_coefficients",
+        "ring_bmc",
+        "the same, gram_ring",
+        faults(
+            "ring_bmc", COEFFICIENTS, ("bit_seen", "WEIGHT = RING != 0 ? 2 :", "WEIGHT = RING != 0 ? 0 :")
+        ),
+    ),
+    Group(
+        "frame_residue",
+        "array_bmc",
+        "what a beat adds, folding, term: congruent modulo 2^16 + 1; gram_array",
+        faults(
+            "array_bmc",
+            BEATS,
+            (
+                "row_right",
+                "{2'd0, beat_data[15:0]} - {{2{beat_data[31]}}",
+                "{2'd0, beat_data[15:0]} - {{2{1'b0}}",
+            ),
+            ("row_right", "index[0] ? high <<< 3 :", "index[0] ? high <<< 2 :"),
+            ("folded_right", "{2'd0, s[15:0]} - {{6{s[27]}}", "{2'd0, s[15:0]} + {{6{s[27]}}"),
+            ("term_right", ".x({3'b010, square[15:0]}),", ".x({3'b001, square[15:0]}),"),
+        ),
+    ),
+    Group(
+        "frame_residue",
+        "ring_bmc",
+        "the same, gram_ring",
+        faults("ring_bmc", BEATS, ("row_right", "if (BEATS == 4 && beat_index == 2'd3) f_b <= 18'd0;", "")),
+    ),
+    Group(
+        "frame_residue",
+        "total_prove",
+        "the sum of a frame of 65535 rows is exact though its lower part wraps",
+        faults(
+            "total_bmc",
+            BEATS,
+            ("total_right", "if (low_top && !low[47]) high_count", "if (low_top) high_count"),
+        ),
+    ),
+    Group(
+        "item_residue",
+        "item_bmc",
+        "an item is congruent to the term made of it, modulo 2^16 + 1",
+        faults(
+            "item_bmc",
+            ITEMS,
+            ("folded_right", "folded <= first - second;", "folded <= first + second;"),
+            (
+                "term_right",
+                "folded[15:0]} - {2'd0, folded[31:16]};",
+                "folded[15:0]} + {2'd0, folded[31:16]};",
+            ),
+        ),
+    ),
+    Group(
+        "item_residue",
+        "value_bmc",
+        "the same of a value",
+        faults(
+            "value_bmc",
+            ITEMS,
+            ("folded_right", "{{66 - VALUE_BITS{v[VALUE_BITS-1]}}, v[", "{{66 - VALUE_BITS{1'b0}}, v["),
+        ),
+    ),
+    Group(
+        "item_residue",
+        "narrow_bmc",
+        "the same of gram_ring's value",
+        faults(
+            "narrow_bmc",
+            ITEMS,
+            ("folded_right", "{{50 - VALUE_BITS{v[VALUE_BITS-1]}}, v}", "{{50 - VALUE_BITS{1'b0}}, v}"),
+        ),
+    ),
+    Group(
+        "item_residue",
+        "beats_bmc",
+        "the same of the residue of the beats",
+        faults("beats_bmc", ITEMS, ("folded_right", "{48'd0, residue[49:48] &", "{48'd0, residue[48:47] &")),
+    ),
+    Group(
+        "item_residue",
+        "back_bmc",
+        "the same of the sum fed back",
+        faults("back_bmc", ITEMS, ("folded_right", "{{10{back[39]}}, back}", "{10'd0, back}")),
+    ),
+    Group(
+        "item_residue",
+        "judge_bmc",
+        "mismatch for every sum that is no multiple of 2^16 + 1, never for one that is, in time",
+        JUDGE_FAULTS,
     ),
     Group(
         "recombine",

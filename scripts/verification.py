@@ -19,7 +19,7 @@ from coverage.counters import KINDS  # noqa: E402 (the path is set above)
 from coverage.report import percent  # noqa: E402
 from mutate.benches import TB, first_tests, modules  # noqa: E402
 from scripts.marked import table  # noqa: E402
-from sim.sources import fingerprint  # noqa: E402
+from sim.sources import RTL, fingerprint, module_file  # noqa: E402
 
 PAGE = ROOT / "docs" / "verification.md"
 NOT_RUN = "not run"
@@ -35,9 +35,39 @@ def load(tool: str) -> Results:
     return found
 
 
+def sources_of(tool: str, results: Results) -> dict[str, dict[str, str]]:
+    """module -> the texts that were tried with it, as module -> fingerprint."""
+    if tool == "formal":
+        found: dict[str, dict[str, str]] = {}
+        for group in results.get("groups", []):
+            found.setdefault(group["module"], {}).update(group["sources"])
+        return found
+    if tool == "mutate":
+        return {row["module"]: {row["module"]: row["source"]} for row in results.get("modules", [])}
+    return {name: {name: row["source"]} for name, row in results.get("modules", {}).items()}
+
+
+def is_stale(sources: Mapping[str, str]) -> bool:
+    """Whether a module is no longer what was tried."""
+    known = modules()
+    return any(name not in known or source != fingerprint(name) for name, source in sources.items())
+
+
+def outdated(tool: str, results: Results) -> list[str]:
+    """Modules with a result of an earlier text."""
+    return sorted(name for name, sources in sources_of(tool, results).items() if is_stale(sources))
+
+
+def date(results: Results) -> str:
+    """Of the last run, or of the last of the modules' runs; "not kept" where the tool did not write it."""
+    rows = results.get("modules", [])
+    dates = [row.get("date", "") for row in rows] if isinstance(rows, list) else []
+    return str(results.get("date") or max(dates, default="") or ("not kept" if results else "-"))
+
+
 def stale(module: str, source: str) -> str:
     """A mark where the module is no longer what was tried."""
-    return "" if source == fingerprint(module) else CHANGED
+    return CHANGED if is_stale({module: source}) else ""
 
 
 def percents(part: int, whole: int) -> str:
@@ -65,7 +95,7 @@ def proofs(results: Results, module: str) -> tuple[str, str]:
     groups = [group for group in results.get("groups", []) if group["module"] == module]
     if not groups:
         return "-", "-"
-    mark = stale(module, groups[0]["source"])
+    mark = CHANGED if is_stale(sources_of("formal", results)[module]) else ""
     passed = sum(group["status"] == "PASS" for group in groups)
     broken, caught = sum(group["broken"] for group in groups), sum(group["caught"] for group in groups)
     return f"{passed} of {len(groups)}{mark}", f"{caught} of {broken}{mark}" if broken else "-"
@@ -112,12 +142,17 @@ def upsets(results: Results, module: str) -> str:
     return f"{sum(row.get(name, 0) for row in found for name in ('silent', 'hang'))} of {flips}"
 
 
+def linked(module: str) -> str:
+    """With its source behind it."""
+    return f"[`{module}`](../{module_file(module).relative_to(RTL.parent).as_posix()})"
+
+
 def rows() -> list[list[str]]:
     """Of every module of rtl/, by name."""
     formal, mutation, coverage, faults = map(load, ("formal", "mutate", "coverage", "faults"))
     return [
         [
-            f"`{module}`",
+            linked(module),
             tests(coverage, module),
             *proofs(formal, module),
             mutants(mutation, module),
@@ -131,21 +166,29 @@ def rows() -> list[list[str]]:
 # -------------------------------------------------------------------------------------------- headline
 
 
+def state(tool: str, results: Results) -> list[str]:
+    """(date, modules changed since then)."""
+    if not results:
+        return ["-", "-"]
+    late, every = outdated(tool, results), sources_of(tool, results)
+    return [date(results), f"{len(late)} of {len(every)}" if late else "none"]
+
+
 def headline() -> list[list[str]]:
-    """What was tried, the figure, the command that prints it, where more is said."""
+    """What was tried, the figure, its date, what changed since, the command, where more is said."""
     formal, mutation, coverage = load("formal"), load("mutate"), load("coverage")
     found = []
     figure = NOT_RUN
     if coverage:
         figure = f"{sum(coverage['tests'].values())} cases, Icarus, Verilator and Python"
-    found.append(["tests", figure, "`make test`", "[tb](../tb/README.md)"])
+    found.append(["tests", figure, date(coverage), "-", "`make test`", "[tb](../tb/README.md)"])
     figure = NOT_RUN
     if formal:
         figure = (
             f"{formal['passed']} of {formal['proofs']}; {formal['caught']} of {formal['broken']} broken "
             f"copies caught; {formal['seen_failing']} of {formal['assertions']} assertions seen to fail"
         )
-    found.append(["proofs", figure, "`make formal`", "[formal](../formal/README.md)"])
+    found.append(["proofs", figure, *state("formal", formal), "`make formal`", "[below](#proofs)"])
     figure = NOT_RUN
     if mutation:
         pairs = [killed_of(row) for row in mutation["modules"]]
@@ -153,7 +196,9 @@ def headline() -> list[list[str]]:
         figure = (
             f"{killed} of {killable} mutants killed, {percents(killed, killable)}, in {len(pairs)} modules"
         )
-    found.append(["mutation", figure, "`make mutate`", "[mutate](../mutate/README.md)"])
+    more = "[mutate](../mutate/README.md)"
+    found.append(["mutation", figure, *state("mutate", mutation), "`make mutate`", more])
+    more = "[coverage](../coverage/README.md)"
     for kind in KINDS:
         figure = NOT_RUN
         if coverage:
@@ -162,14 +207,16 @@ def headline() -> list[list[str]]:
                 f"{hit} of {total}, {percents(hit, total)}; "
                 f"{percents(hit, total - waived)} without the {waived} waived"
             )
-        found.append([f"{kind} coverage", figure, "`make coverage`", "[coverage](../coverage/README.md)"])
+        found.append([f"{kind} coverage", figure, *state("coverage", coverage), "`make coverage`", more])
     figure = NOT_RUN
     if coverage:
         points = coverage["functional"].values()
         hit, bins = sum(point["hit"] for point in points), sum(point["bins"] for point in points)
         figure = f"{hit} of {bins} bins of {len(points)} points, {percents(hit, bins)}"
-    found.append(["functional coverage", figure, "`make coverage`", "[coverage](../coverage/README.md)"])
-    return found + [[*row, "`make faults`", "[faults](../faults/README.md)"] for row in upset_figures()]
+    found.append(["functional coverage", figure, date(coverage), "-", "`make coverage`", more])
+    more = "[faults](../faults/README.md)"
+    when = date(load("faults").get("now", {}))
+    return found + [[*row, when, "not kept", "`make faults`", more] for row in upset_figures()]
 
 
 def upset_figures() -> list[tuple[str, str]]:
@@ -192,6 +239,22 @@ def upset_figures() -> list[tuple[str, str]]:
     return found
 
 
+# ---------------------------------------------------------------------------------------------- proofs
+
+
+def proof_rows() -> list[list[str]]:
+    """Of every proof: module, what it says, how, result, broken copies."""
+    formal = load("formal")
+    found = []
+    for group in formal.get("groups", []):
+        copies = f"{group['caught']} of {group['broken']}" if group["broken"] else "-"
+        mark = CHANGED if is_stale(group["sources"]) else ""
+        found.append(
+            [f"`{group['module']}`", group["about"], group["engine"], f"{group['status']}{mark}", copies]
+        )
+    return found
+
+
 # --------------------------------------------------------------------------------------------- missing
 
 
@@ -205,6 +268,9 @@ def missing() -> list[str]:
     formal, mutation, coverage, faults = map(load, ("formal", "mutate", "coverage", "faults"))
     every = set(modules())
     found = []
+    for tool, results in (("formal", formal), ("mutate", mutation), ("coverage", coverage)):
+        if late := outdated(tool, results):
+            found.append(f"`make {tool}` tried an earlier text of {listed(late)}.")
     if formal:
         proved = {group["module"] for group in formal["groups"]}
         found.append(f"Proofs: {len(every - proved)} of {len(every)} modules have none of their own.")
@@ -253,14 +319,26 @@ def text() -> str:
     parts = [
         "<!-- Written by `make verification`; do not edit. -->",
         "# Verification",
-        "From the last run of each tool; the commands print the figures. Percentages by module are without "
-        "points that [waivers.toml](../coverage/waivers.toml) says cannot be hit; mutants without those that "
-        "cannot be noticed.",
-        table(["", "figure", "command", "more"], headline()),
+        "How far each claim was tried: figures of the last run of each tool, which its command prints again. "
+        "This page is made of their results and runs nothing itself.",
+        table(["", "figure", "run", "modules changed since", "command", "more"], headline()),
+        "* **Tests** compare RTL with bit-exact models; [tb](../tb/README.md).\n"
+        "* **Proofs** hold for every input. A *broken copy* of the RTL has a fault put in on purpose: the "
+        "proof must fail on it, by the assertion named beforehand.\n"
+        "* **Mutants** are netlists with one changed cell or wire; tests kill those on which they fail. "
+        "Mutants that cannot be noticed are left out.\n"
+        "* **Coverage** by module is without points that [waivers.toml](../coverage/waivers.toml) says, "
+        "with the reason, cannot be hit; holes are named in the [report](../coverage/report.md).\n"
+        "* **Upsets** are flips of one flip-flop or memory bit in mid-frame: *silent* is a wrong result "
+        "without a flag. Both cores together; [what protects them](decisions/upsets.md).",
         "## By module",
         "Cases are those of the module's own bench, or of those named, which try it inside their module. "
-        f"{CHANGED}: the module has changed since.",
+        f"-: nothing of the kind. {CHANGED}: the module, or one that the proof reads, has changed since.",
         table(head, rows()),
+        "## Proofs",
+        "Induction: in every clock of every history. Complete: a combinational module, every input. Bounded: "
+        "a pipeline, every input for as many clocks as it has ([kinds](../formal/README.md)).",
+        table(["module", "what is proved", "how", "result", "broken copies caught"], proof_rows()),
         "## Known to be missing",
         "\n".join(f"* {line}" for line in missing()),
     ]
