@@ -220,11 +220,7 @@ def _register(block: ET.Element, register: regtool.RegisterView) -> None:
         _add(element, "dim", register.count)
     _add(element, "addressOffset", f"0x{register.address:03X}")
     _add(element, "size", 32)
-    _add(
-        element,
-        "volatile",
-        "true" if register.access in ("ro", "w1c") and register.reset is None else "false",
-    )
+    _add(element, "volatile", str(register.volatile).lower())
     _add(element, "access", ACCESS[register.access])
     if register.reset is not None:
         reset = _add(element, "reset")

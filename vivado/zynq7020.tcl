@@ -5,8 +5,11 @@
 #
 #   CORE       oltae or ivisnav
 #   FOLDER     of the project, which must not exist; default build/vivado/CORE
-#   BOARD      a board part, such as tul.com.tw:pynq-z2:part0:1.0, or none: then DDR and MIO keep the PS's defaults
-#   bitstream  also implement, down to the bitstream and the hardware description (.xsa)
+#   BOARD      a board part, such as tul.com.tw:pynq-z2:part0:1.0, whose board files Vivado must have (the board's maker gives them), or
+#              none: the part alone. DDR and MIO then keep the PS's defaults, which are no board's: good for area and timing, and for a
+#              board whose boot loader sets the PS up by itself (PYNQ's image does)
+#   bitstream  also implement, down to the bitstream and the hardware description: system.xsa, and relnav.bit with relnav.hwh beside it, as
+#              PYNQ's Overlay wants them. Fails where the timing is not met.
 #
 # Assumed, since there was no Vivado to try it with (a test runs it on stubs and checks names and connections):
 #   * Vivado 2022.1 or newer: assign_bd_address with -offset; axi_dma 7.1, smartconnect 1.0, proc_sys_reset 5.0, xlconcat 2.1,
@@ -130,6 +133,16 @@ if {$goal eq "bitstream"} {
   launch_runs impl_1 -to_step write_bitstream -jobs 2
   wait_on_run impl_1
   if {[get_property PROGRESS [get_runs impl_1]] ne "100%"} { error "the implementation failed: see $folder" }
+  set slack [get_property STATS.WNS [get_runs impl_1]]
+  if {$slack eq "" || $slack < 0} { error "timing is not met: worst negative slack $slack ns at $frequency MHz; lower `frequency`" }
   write_hw_platform -fixed -include_bit -force [file join $folder system.xsa]
+  foreach {pattern name} {
+    {*.runs impl_1 system_wrapper.bit}      relnav.bit
+    {*.gen sources_1 bd system hw_handoff system.hwh}  relnav.hwh
+  } {
+    set found [glob -nocomplain [file join $folder {*}$pattern]]
+    if {[llength $found] != 1} { error "$name: not one [file join {*}$pattern] in $folder" }
+    file copy -force [lindex $found 0] [file join $folder $name]
+  }
 }
 puts "relnav: $core in $folder"

@@ -207,7 +207,7 @@ relnav_error ivisnav_push_frame(ivisnav *device, const ivisnav_frame *frame, con
             relnav_soft_reset(&device->core);
         }
     }
-    return error;
+    return error == RELNAV_OK ? relnav_end_push(&device->core) : error;
 }
 
 relnav_error ivisnav_read_raw(const ivisnav *device, ivisnav_raw *raw)

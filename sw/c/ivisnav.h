@@ -70,7 +70,8 @@ typedef struct {
  * core. device->core.build says what it was built with; without IVISNAV_BUILD_VERIFY its results are computed once only. */
 relnav_error ivisnav_init(ivisnav *device, relnav_port port);
 
-/** c / (4 pi f0 dt): range rate of one radian an interval. f0: modulation frequency, Hz; dt: interval, s. */
+/** c / (4 pi f0 dt): range rate of one radian an interval. f0: modulation frequency, Hz; dt: interval, s. Not finite where one of them is 0:
+ * ivisnav_choose() then says RELNAV_NOT_FINITE of the range rates. */
 double ivisnav_metres_per_second(double f0, double dt);
 
 /** A row of h from a beam: r of any length but zero, p in m. RELNAV_NOT_FINITE (also of the products), RELNAV_ZERO_DIRECTION. */
@@ -94,7 +95,7 @@ size_t ivisnav_beats(const ivisnav_frame *frame);
 relnav_error ivisnav_fill(const ivisnav_frame *frame, const ivisnav_scale *scale, uint64_t *beats, size_t capacity);
 
 /** Give the core a frame by its registers, beat by beat. The errors of relnav_begin() and of ivisnav_fill(), RELNAV_WRONG_SCALE where
- * another scale is configured; after an error the core holds no part of the frame. */
+ * another scale is configured; after an error the core holds no part of the frame. RELNAV_NOT_TAKEN: a write was refused. */
 relnav_error ivisnav_push_frame(ivisnav *device, const ivisnav_frame *frame, const ivisnav_scale *scale);
 
 /** The words of the frame that was solved last, each read twice. RELNAV_UNSTEADY, what FLAGS say afterwards, or RELNAV_PENDING: the

@@ -196,7 +196,7 @@ relnav_error oltae_push_frame(oltae *device, const oltae_frame *frame, const olt
             relnav_soft_reset(&device->core);
         }
     }
-    return error;
+    return error == RELNAV_OK ? relnav_end_push(&device->core) : error;
 }
 
 relnav_error oltae_read_raw(const oltae *device, oltae_raw *raw)

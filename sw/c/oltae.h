@@ -95,7 +95,7 @@ size_t oltae_beats(const oltae_frame *frame);
 relnav_error oltae_fill(const oltae_frame *frame, const oltae_scale *scale, uint64_t *beats, size_t capacity);
 
 /** Give the core a frame by its registers, beat by beat. The errors of relnav_begin() and of oltae_fill(), RELNAV_WRONG_SCALE also where
- * another scale is configured; after an error the core holds no part of the frame. */
+ * another scale is configured; after an error the core holds no part of the frame. RELNAV_NOT_TAKEN: a write was refused. */
 relnav_error oltae_push_frame(oltae *device, const oltae_frame *frame, const oltae_scale *scale);
 
 /** The words of the frame that was solved last, each read twice. RELNAV_UNSTEADY, what FLAGS say afterwards, or RELNAV_PENDING: the

@@ -21,7 +21,7 @@ typedef char shared_layout[(
     OLTAE_IRQ_STATUS_DONE == IVISNAV_IRQ_STATUS_DONE && OLTAE_IRQ_STATUS_ERROR == IVISNAV_IRQ_STATUS_ERROR &&
     OLTAE_FLAGS_FEW_POINTS == IVISNAV_FLAGS_FEW_ROWS && OLTAE_FLAGS_RANK_DEFICIENT == IVISNAV_FLAGS_RANK_DEFICIENT &&
     OLTAE_FLAGS_ZERO_WEIGHT == IVISNAV_FLAGS_ZERO_WEIGHT && OLTAE_FLAGS_TOO_LONG == IVISNAV_FLAGS_TOO_LONG &&
-    OLTAE_FLAGS_BAD_TLAST == IVISNAV_FLAGS_BAD_TLAST && OLTAE_FLAGS_ILL_CONDITIONED == IVISNAV_FLAGS_ILL_CONDITIONED &&
+    OLTAE_FLAGS_BAD_TLAST == IVISNAV_FLAGS_BAD_TLAST && OLTAE_FLAGS_BUSY_WRITE == IVISNAV_FLAGS_BUSY_WRITE && OLTAE_FLAGS_ILL_CONDITIONED == IVISNAV_FLAGS_ILL_CONDITIONED &&
     OLTAE_FLAGS_WATCHDOG == IVISNAV_FLAGS_WATCHDOG && OLTAE_FLAGS_UPSET == IVISNAV_FLAGS_UPSET &&
     OLTAE_IRQ_STATUS_DONE == RELNAV_DONE && OLTAE_IRQ_STATUS_ERROR == RELNAV_ERROR
 ) ? 1 : -1];
@@ -47,8 +47,8 @@ const char *relnav_error_text(relnav_error error)
         [RELNAV_NO_CORE] = "no such core at this address",
         [RELNAV_WRONG_VERSION] = "the core has another version than the driver",
         [RELNAV_NOT_BUILT] = "the core was built without what the configuration asks for",
-        [RELNAV_BUSY] = "the core is busy: a frame is open",
-        [RELNAV_NOT_TAKEN] = "a register does not hold what was written to it",
+        [RELNAV_BUSY] = "the core is busy: a frame is open; to drop it, stop the DMA and recover",
+        [RELNAV_NOT_TAKEN] = "the core did not take what was written to it",
         [RELNAV_TIMEOUT] = "no result after the given number of polls",
         [RELNAV_UNSTEADY] = "two readings of a result never agree",
         [RELNAV_WRONG_FRAME] = "the result is not of the frame that was given",
@@ -63,7 +63,7 @@ const char *relnav_error_text(relnav_error error)
         [RELNAV_BAD_WEIGHT] = "a weight is negative or not finite",
         [RELNAV_SMALL_WEIGHTS] = "the largest weight is too small to scale",
         [RELNAV_LOST_WEIGHT] = "a positive weight would round to 0 in 16 bits",
-        [RELNAV_BAD_VARIANCE] = "the variance at unit integer weight is not a normal binary32 number",
+        [RELNAV_BAD_VARIANCE] = "the variance is negative, or at unit integer weight not a normal binary32 number",
         [RELNAV_ZERO_DIRECTION] = "a direction is zero",
         [RELNAV_NO_SPACE] = "the buffer is too short",
     };
@@ -86,6 +86,14 @@ static relnav_error check_port(const relnav_port *port)
         return RELNAV_NULL;
     }
     return (uintptr_t)port->base % sizeof(uint32_t) == 0 ? RELNAV_OK : RELNAV_MISALIGNED;
+}
+
+/** What an answer that no working core gives means: the error, or RELNAV_NO_CORE where none answers any more. */
+static relnav_error unless_gone(const relnav_core *core, relnav_error error)
+{
+    uint32_t id = READ(core, ID);
+
+    return id == OLTAE_ID_VALUE || id == IVISNAV_ID_VALUE ? error : RELNAV_NO_CORE;
 }
 
 relnav_error relnav_identify(relnav_core *core, uint32_t id, uint32_t version)
@@ -163,7 +171,7 @@ static relnav_error write_set(const relnav_core *core)
     WRITE(core, VARIANCE, core->variance);
     relnav_clear_flags(core, OLTAE_FLAGS_UPSET); /* of a configuration that is no more */
     if (config != core->config || READ(core, FRAC) != core->frac || READ(core, VARIANCE) != core->variance) {
-        return RELNAV_NOT_TAKEN;
+        return unless_gone(core, RELNAV_NOT_TAKEN);
     }
     return RELNAV_OK;
 }
@@ -187,7 +195,7 @@ relnav_error relnav_settle(const relnav_core *core, relnav_error error)
 relnav_error relnav_set(relnav_core *core, uint32_t config, uint32_t frac, uint32_t variance, double weight_scale)
 {
     if ((relnav_status(core) & OLTAE_STATUS_BUSY) != 0) {
-        return RELNAV_BUSY;
+        return unless_gone(core, RELNAV_BUSY);
     }
     core->config = config;
     core->frac = frac;
@@ -201,7 +209,7 @@ relnav_error relnav_begin(relnav_core *core)
     uint32_t status = relnav_status(core);
 
     if ((status & OLTAE_STATUS_BUSY) != 0) {
-        return RELNAV_BUSY;
+        return unless_gone(core, RELNAV_BUSY);
     }
     if ((relnav_flags(core) & OLTAE_FLAGS_UPSET) != 0) {
         return RELNAV_UPSET;
@@ -219,7 +227,7 @@ relnav_error relnav_begin_push(relnav_core *core)
     relnav_error error = relnav_begin(core);
 
     if (error == RELNAV_OK && (relnav_status(core) & OLTAE_STATUS_PUSH_READY) == 0) {
-        error = RELNAV_BUSY;
+        error = unless_gone(core, RELNAV_BUSY);
     }
     return error;
 }
@@ -238,6 +246,18 @@ void relnav_push_row(const relnav_core *core, const uint64_t *beats, size_t coun
     for (i = 0; i < count; i++) {
         relnav_push(core, beats[i], last && i + 1 == count);
     }
+}
+
+relnav_error relnav_end_push(const relnav_core *core)
+{
+    uint32_t flags = relnav_flags(core);
+
+    /* a frame that the core gave up is relnav_poll()'s: its flag says why nothing more was taken */
+    if ((flags & OLTAE_FLAGS_BUSY_WRITE) == 0 || relnav_failure(core, flags) != RELNAV_OK) {
+        return RELNAV_OK;
+    }
+    relnav_soft_reset(core);
+    return RELNAV_NOT_TAKEN;
 }
 
 relnav_error relnav_failure(const relnav_core *core, uint32_t flags)

@@ -32,7 +32,7 @@ typedef enum {
     RELNAV_UPSET,    /**< likewise */
 
     /* between the processor and the core */
-    RELNAV_NO_CORE,
+    RELNAV_NO_CORE, /**< an address with nothing behind it may abort the processor instead */
     RELNAV_WRONG_VERSION,
     RELNAV_NOT_BUILT,
     RELNAV_BUSY,
@@ -65,7 +65,8 @@ const char *relnav_error_text(relnav_error error);
 
 /* ------------------------------------------------------------------------------------------------ access */
 
-/** Where a core's registers are. */
+/** Where a core's registers are. read, write: both or neither; with both, base is not looked at. They get context, which is the
+ * caller's own, and the byte offset of a register, below 4096; a write is over when write returns. */
 typedef struct {
     volatile uint32_t *base;
 #ifdef RELNAV_CALLBACKS
@@ -155,20 +156,22 @@ void relnav_acknowledge(const relnav_core *core);
 /** Drop the frame at hand; configuration, flags and results stay. Stop a DMA first. */
 void relnav_soft_reset(const relnav_core *core);
 
-/** After RELNAV_WATCHDOG, RELNAV_UPSET or RELNAV_TIMEOUT: soft reset, flags and interrupts cleared, the configuration written
- * again. The frame has to be given again. RELNAV_NOT_TAKEN. */
+/** After RELNAV_WATCHDOG, RELNAV_UPSET or RELNAV_TIMEOUT, and where the core stays RELNAV_BUSY: its watchdog ends COMPUTE and VERIFY,
+ * but waits for ever in LOAD for the rest of a frame, such as that of a program that was restarted. Soft reset, flags and interrupts
+ * cleared, the configuration written again. Stop a DMA first; the frame has to be given again. RELNAV_NOT_TAKEN, RELNAV_NO_CORE. */
 relnav_error relnav_recover(const relnav_core *core);
 
-/** relnav_recover() after one of these three errors, nothing after any other. Returns the error. */
+/** relnav_recover() after one of the first three errors, nothing after any other. Returns the error. */
 relnav_error relnav_settle(const relnav_core *core, relnav_error error);
 
-/** Set CONFIG (where there is one), FRAC and VARIANCE, as register words. RELNAV_BUSY while a frame is open, RELNAV_NOT_TAKEN. */
+/** Set CONFIG (where there is one), FRAC and VARIANCE, as register words. RELNAV_BUSY while a frame is open, RELNAV_NOT_TAKEN;
+ * RELNAV_NO_CORE instead of either where ID is no core's any more. */
 relnav_error relnav_set(relnav_core *core, uint32_t config, uint32_t frac, uint32_t variance, double weight_scale);
 
 /* ------------------------------------------------------------------------------------------------ frames */
 
-/** Before a frame's first beat, and before a DMA is started: clears the sticky flags. RELNAV_BUSY while a frame is open;
- * RELNAV_UPSET where the core noticed one since it was configured; RELNAV_NOT_TAKEN where a flag stays. */
+/** Before a frame's first beat, and before a DMA is started: clears the sticky flags. RELNAV_BUSY while a frame is open (RELNAV_NO_CORE
+ * where ID is no core's any more); RELNAV_UPSET where the core noticed one since it was configured; RELNAV_NOT_TAKEN where a flag stays. */
 relnav_error relnav_begin(relnav_core *core);
 
 /** relnav_begin() for a frame by relnav_push(): RELNAV_BUSY also where no push would be taken. */
@@ -176,6 +179,10 @@ relnav_error relnav_begin_push(relnav_core *core);
 
 /** One beat by the registers; last ends the frame. No look at PUSH_READY is needed in between. */
 void relnav_push(const relnav_core *core, uint64_t beat, int last);
+
+/** After the last push of a frame: RELNAV_NOT_TAKEN where the core refused a write (BUSY_WRITE), so that its frame is another one. It is
+ * dropped. Not where a flag gives the frame up already. */
+relnav_error relnav_end_push(const relnav_core *core);
 
 /** The beats of one point or row; last: no other follows. */
 void relnav_push_row(const relnav_core *core, const uint64_t *beats, size_t count, int last);

@@ -28,7 +28,10 @@ from .result import FAILURES
 
 Feed = Literal["stream", "registers"]
 
-POLLS = 10_000  # of STATUS, before a frame counts as lost; a solved frame takes about 40 on the slowest bus
+POLLS = 10_000
+"""Looks at the core before a frame counts as lost. A solved frame takes about 40 on the slowest bus. All of
+them take a fraction of a second where `idle` returns at once, and 100 s where each waits 10 ms for an
+interrupt (UioBus): see `polls`."""
 READINGS = 4  # of the same registers, of which two in a row have to agree
 
 Value = TypeVar("Value")
@@ -158,7 +161,10 @@ class CoreDriver(Generic[StatusT]):
     def check_unlocked(self) -> None:
         """Raises BackendError while a frame is open."""
         if self.status().busy:
-            raise BackendError("the core is busy: its configuration is locked")
+            raise BackendError(
+                "the core is busy: its configuration is locked (recover() drops the frame at hand; "
+                "stop the sender first)"
+            )
 
     def flags(self) -> int:
         """The sticky FLAGS."""
@@ -192,8 +198,10 @@ class CoreDriver(Generic[StatusT]):
         self.write(self.MAP.CONTROL, self.MAP.CONTROL.encode(SOFT_RESET=1))
 
     def recover(self) -> None:
-        """After an UpsetError: drop the frame at hand, clear flags and interrupts.
+        """Drop the frame at hand, clear flags and interrupts: after an UpsetError, after a frame without an
+        end, and at the start, where another program may have left the core in a frame.
 
+        The core's watchdog ends a solving that is stuck, but the rest of a frame is waited for without end.
         Stop the stream's sender first. `configure` (and so `solve`) then writes the configuration again.
         """
         self.soft_reset()
@@ -234,7 +242,8 @@ class CoreDriver(Generic[StatusT]):
 
         What counts is the number of completed frames and the FLAGS that `feed` cleared: neither can be the
         frame's before, however late the core takes the first beat. Two looks in a row have to say the same.
-        Raises BackendError after `polls`. Call it before `acknowledge`, and before the next frame is fed.
+        Raises BackendError after `polls`: the frame is open then, and the core busy until `recover`.
+        Call it before `acknowledge`, and before the next frame is fed.
         """
         before: bool | None = None
         for _ in range(polls):
@@ -245,7 +254,9 @@ class CoreDriver(Generic[StatusT]):
                 self.idle()
             before = solved
         state = self.status().state.name
-        raise BackendError(f"no result after {polls} looks at the core: its state is {state}")
+        raise BackendError(
+            f"no result after {polls} looks at the core: its state is {state}; recover() makes it ready again"
+        )
 
     def _outcome(self, ticket: int) -> bool | None:
         """One look at the frame of this ticket: solved, failed, or None: not over yet."""

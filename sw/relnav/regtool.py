@@ -81,6 +81,8 @@ class RegisterView:
     """ro, rw, wo or w1c."""
     reset: int | None
     """Word after reset; None where hardware decides."""
+    volatile: bool
+    """Whether hardware changes what is read."""
     fields: tuple[FieldView, ...]
 
     @property
@@ -173,6 +175,7 @@ def _registers(top: AddrmapNode, file: Path) -> Iterator[RegisterView]:
             count=shape[0] if shape else 1,
             access=_access(fields),
             reset=sum(known) if len(known) == len(fields) else None,
+            volatile=any(field.is_sw_readable and field.is_hw_writable for field in fields),
             fields=tuple(_field(field) for field in fields),
         )
 

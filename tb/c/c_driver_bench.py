@@ -414,6 +414,12 @@ def busy(bench: Bench) -> None:
         assert busy == (name in ("BUSY", "OK"))
         bench.shared("soft_reset")
     bench.shared("soft_reset")
+    # a push that the core, which is solving, refuses; its frame is dropped, and the next one is solved
+    scale = bench.prepare(given)
+    assert bench.call("push_frame", byref(given), byref(scale)) == "OK" and bench.shared("end_push") == "OK"
+    bench.shared("push", c_uint64(1), 0)
+    assert bench.shared("end_push") == "NOT_TAKEN" and bench.shared("wait", c_uint32(5)) == "TIMEOUT"
+    assert bench.solve(given)[0] == "OK"
     bench.line.lies = {MAP.STATUS.ADDRESS: lambda word: word & ~MAP.STATUS.PUSH_READY.mask}
     assert bench.shared("begin_push") == "BUSY"
     bench.line.lies = {}

@@ -57,7 +57,7 @@ def test_headers_stand_alone_and_serve_cpp(compiler: list[str], tmp_path: Path) 
 
 def test_examples_compile(compiler: list[str], tmp_path: Path) -> None:
     blocks = re.findall(r"^```c\n(.*?)^```", (DRIVER / "README.md").read_text(), re.MULTILINE | re.DOTALL)
-    assert len(blocks) == 3
+    assert len(blocks) == 4
     for block in blocks:
         source = tmp_path / "example.c"
         source.write_text(block)

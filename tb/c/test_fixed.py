@@ -67,6 +67,14 @@ def test_every_error_has_its_own_text(driver: CDriver) -> None:
         assert driver.relnav_error_text(number) == b"unknown error"
 
 
+def test_the_readme_tells_every_error(driver: CDriver) -> None:
+    section = (DRIVER / "README.md").read_text().partition("\n## Errors\n")[2].partition("\n## ")[0]
+    rows = [line.strip("| ").split(" | ") for line in section.splitlines() if line.startswith("| ")]
+    texts = [driver.relnav_error_text(number).decode() for number in range(len(ERRORS) - 1)]
+    assert [row[:2] for row in rows[1:]] == [list(pair) for pair in zip(ERRORS[:-1], texts, strict=True)]
+    assert all(len(row) == 3 for row in rows)
+
+
 # -------------------------------------------------------------------------------------------------- numbers
 
 

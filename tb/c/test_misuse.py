@@ -18,6 +18,7 @@ from relnav.registers import Oltae
 
 from tb.c import library
 from tb.c.library import CDriver, Port, Reals, frame
+from tb.sw.fake_core import FakeCore
 from tb.sw.model_core import MODELS, SolvingCore
 
 DRIVERS: dict[str, type[CoreDriver[Any]]] = {"oltae": OltaeDriver, "ivisnav": IvisnavDriver}
@@ -322,7 +323,53 @@ def test_a_bus_that_reads_one_word(setup: Setup, word: int) -> None:
     setup.lie = lambda address, _: word
     assert setup.shared("wait", POLLS) == "TIMEOUT"
     assert setup.call("read", byref(setup.device), byref(setup.result)) != "OK" and not any(setup.numbers())
-    assert setup.solve() in ("BUSY", "NOT_TAKEN")
+    assert setup.solve() == setup.configure() == setup.shared("begin_push") == "NO_CORE"
+    for begun in ("solve", "configure"):
+        setup.lie = lambda address, found: found
+        assert setup.shared("recover") == "OK" and getattr(setup, begun)() == "OK"
+
+
+def _fail(flags: int, core: FakeCore) -> None:
+    core.failed(flags)
+
+
+def test_a_write_that_was_refused(setup: Setup) -> None:
+    """BUSY_WRITE during a pushed frame: the core has other numbers than the caller's."""
+    refused = setup.map.FLAGS.encode(BUSY_WRITE=1)
+    write = setup.core.write
+
+    def refuse(address: int, word: int) -> None:
+        write(address, word)
+        if address == setup.map.DATA_A.ADDRESS:
+            setup.core.raise_flags(refused)
+
+    core: Any = setup.core
+    for also, error in ((0, "NOT_TAKEN"), (setup.map.FLAGS.encode(UPSET=1), "UPSET")):
+        core.write = refuse
+        setup.core.solve = functools.partial(_fail, also) if also else lambda core: setup.core.compute()
+        refused |= also
+        assert setup.configure() == "OK" and setup.push(setup.good) == ("OK" if also else error)
+        if not also:
+            reset = setup.map.CONTROL.ADDRESS, setup.map.CONTROL.encode(SOFT_RESET=1)
+            assert setup.core.written[-1] == reset
+        setup.core.state = setup.map.State.IDLE
+        assert setup.shared("recover") == "OK"
+        assert setup.solve() == error and not any(setup.numbers())
+        core.write = write
+        setup.core.solve = lambda core: setup.core.compute()
+        setup.core.left = -1
+        assert setup.shared("recover") == "OK" and setup.solve() == "OK"
+
+
+def test_a_core_that_stays_in_a_frame(setup: Setup) -> None:
+    """The boot recipe: a frame that was left open before keeps the core busy until relnav_recover()."""
+    setup.core.state = setup.map.State(1)  # LOAD, GATHER
+    assert setup.configure() == setup.shared("begin") == setup.solve() == "BUSY"
+    assert setup.shared("recover") == "OK"
+    reset = setup.map.CONTROL.ADDRESS, setup.map.CONTROL.encode(SOFT_RESET=1)
+    assert reset in setup.core.written
+    setup.core.state = setup.map.State.IDLE  # what the reset does
+    assert setup.configure() == "OK" and setup.solve() == "OK"
 
 
 @pytest.mark.parametrize("flag", ["RANK_DEFICIENT", "TOO_LONG", "WATCHDOG", "UPSET"])

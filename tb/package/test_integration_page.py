@@ -20,7 +20,7 @@ from relnav.driver import OltaeDriver
 from relnav.ivisnav.driver import IvisnavDriver
 from relnav.vlnv import vlnv
 
-from sim.runner import missing, verilator_folder
+from sim.runner import missing
 from sim.sources import ROOT
 from tb.sw.model_core import MODELS, CoreDevice, SolvingCore, WatchedMap
 
@@ -31,6 +31,8 @@ SHELL = [
     for index, (language, text) in enumerate(BLOCKS)
     if language == "sh"
 ]
+# the first block puts the tools on the PATH: every other begins with it
+PATHS = SHELL[0][0]
 PYTHON = [text for language, text in BLOCKS if language == "python"]
 TREE = (
     *("rtl", "sim", "syn", "vivado", "registers", "docs", "sw/relnav", "oltae.core", "ivisnav.core"),
@@ -39,8 +41,9 @@ TREE = (
 VIVADO = """#!/bin/sh
 [ "$1 $2 $3 $5" = "-mode batch -source -tclargs" ] || exit 9
 script=$4; shift 5
-PROGRESS=100% exec tclsh "{stubs}" "$script" "$@"
+exec env PROGRESS=100% STATS.WNS=0.1 MISSING= tclsh "{stubs}" "$script" "$@"
 """
+SYSTEM = ("/usr/local/bin", "/usr/bin", "/bin")
 NEEDS = {"iverilog": "icarus", "icarus": "icarus", "verilator": "verilator", "target=lint": "verilator"}
 
 
@@ -82,6 +85,8 @@ def test_shell(number: int, checkout: Path) -> None:
         pytest.skip(found[0])
     if "fusesoc" in commands and not Path(sys.executable).with_name("fusesoc").is_file():
         pytest.skip("FuseSoC is not installed (make setup)")
+    if not (Path(sys.prefix) / "bin/activate").is_file():
+        pytest.skip("no virtual environment (make setup)")
     if "vivado -mode" in commands and shutil.which("tclsh") is None:
         pytest.skip("no tclsh (Debian package tcl)")
     home = checkout.parent / "home"
@@ -89,13 +94,17 @@ def test_shell(number: int, checkout: Path) -> None:
     tools.mkdir(parents=True)
     (tools / "vivado").write_text(VIVADO.format(stubs=ROOT / "tb/package/vivado_stubs.tcl"))
     (tools / "vivado").chmod(0o755)
-    path = [str(tools), str(Path(sys.executable).parent), str(verilator_folder() or ""), os.environ["PATH"]]
-    environment = {name: value for name, value in os.environ.items() if not name.startswith("RELNAV_")}
-    environment |= {"PATH": os.pathsep.join(filter(None, path)), "HOME": str(home), "PIP_NO_INDEX": "1"}
+    (checkout / ".venv").symlink_to(sys.prefix)
+    # what the system has; the rest of the PATH is the page's own affair
+    path = [str(tools), *SYSTEM]
+    kept = {
+        name: value for name, value in os.environ.items() if not name.startswith(("RELNAV_", "VIRTUAL_ENV"))
+    }
+    environment = kept | {"PATH": os.pathsep.join(path), "HOME": str(home), "PIP_NO_INDEX": "1"}
     environment |= {f"XDG_{name}_HOME": str(home) for name in ("CACHE", "CONFIG", "DATA")}
-    environment |= {"PIP_DISABLE_PIP_VERSION_CHECK": "1", "VIRTUAL_ENV": sys.prefix}
+    environment |= {"PIP_DISABLE_PIP_VERSION_CHECK": "1"}
     done = subprocess.run(
-        ["bash", "-e", "-u", "-c", commands],
+        ["bash", "-e", "-c", (PATHS if number else "") + commands],
         cwd=checkout,
         env=environment,
         capture_output=True,

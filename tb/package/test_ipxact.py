@@ -11,6 +11,7 @@ from typing import Any
 from xml.etree import ElementTree as ET
 
 import pytest
+from relnav import regtool
 from relnav.registermap import Register
 from relnav.vlnv import vlnv
 
@@ -20,6 +21,8 @@ from sim.sources import ROOT
 
 CORES = {core.name: core for core in cores()}
 NAMES = {"s": ipxact.SPIRIT}
+KEPT = {"ID", "VERSION", "IRQ_ENABLE", "CONFIG", "FRAC", "VARIANCE", "DATA_A", "DATA_B"}
+"""What reads as it was written, or always the same."""
 
 
 @pytest.fixture(params=CORES)
@@ -153,6 +156,8 @@ def test_registers_are_the_drivers(core: Core) -> None:
         assert int(text(element, "s:addressOffset"), 16) == register.ADDRESS
         assert int(element.findtext("s:dim", "1", NAMES)) == register.COUNT
         assert text(element, "s:access") == access[register.ACCESS]
+        kept = name in KEPT or register.ACCESS == "wo"
+        assert text(element, "s:volatile") == ("false" if kept else "true"), name
         reset = element.findtext("s:reset/s:value", namespaces=NAMES)
         assert (None if reset is None else int(reset, 16)) == register.RESET
         fields = {
@@ -166,6 +171,24 @@ def test_registers_are_the_drivers(core: Core) -> None:
     assert {text(s, "s:name"): int(text(s, "s:value")) for s in states} == {
         state.name: int(state) for state in core.driver.MAP.State
     }
+
+
+def test_what_hardware_changes_is_volatile(tmp_path: Path) -> None:
+    """A made-up description: by the hardware's access alone, whatever the software's and the reset."""
+    description = tmp_path / "made_up.rdl"
+    for software, hardware, reset, volatile in (
+        ("r", "w", "", True),
+        ("r", "w", " = 0", True),
+        ("r", "na", " = 1", False),
+        ("rw", "r", " = 0", False),
+        ("rw", "rw", " = 0", True),
+        ("w", "rw", "", False),
+    ):
+        field = f"field {{ sw = {software}; hw = {hardware}; }} F[0:0]{reset};"
+        description.write_text(
+            f"addrmap made_up #(longint unsigned VERSION_WORD = 0) {{ reg {{ {field} }} R @ 0; }};"
+        )
+        assert regtool.read(description).registers[0].volatile is volatile, field
 
 
 def test_parameters_reach_the_verilog(core: Core, tmp_path: Path) -> None:

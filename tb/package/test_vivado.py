@@ -47,7 +47,9 @@ IP = {
 }
 
 
-def run(*arguments: str, progress: str = "100%") -> tuple[list[list[str]], str]:
+def run(
+    *arguments: str, progress: str = "100%", slack: str = "0.25", lost: str = ""
+) -> tuple[list[list[str]], str]:
     """(commands with their arguments, the error), of the script under the stubs."""
     command = ["tclsh", str(ROOT / "tb/package/vivado_stubs.tcl"), str(SCRIPT), *arguments]
     done = subprocess.run(
@@ -55,7 +57,7 @@ def run(*arguments: str, progress: str = "100%") -> tuple[list[list[str]], str]:
         capture_output=True,
         text=True,
         check=False,
-        env={"PROGRESS": progress, "PATH": "/usr/bin:/bin"},
+        env={"PROGRESS": progress, "STATS.WNS": slack, "MISSING": lost, "PATH": "/usr/bin:/bin"},
     )
     calls = [line.split("\x1f")[1:] for line in done.stdout.splitlines() if line.startswith("CALL\x1f")]
     assert bool(done.stderr) == bool(done.returncode)
@@ -174,8 +176,28 @@ def test_with_a_board_and_to_the_bitstream(tmp_path: Path) -> None:
     assert [call[0] for call in calls].count("apply_bd_automation") == 1
     assert "make_bd_intf_pins_external" not in {call[0] for call in calls}
     assert calls[-1][0] == "write_hw_platform" and calls[-1][-1] == f"{folder}/system.xsa"
-    calls, error = run("oltae", folder, "none", "bitstream", progress="40%")
-    assert "the implementation failed" in error and calls[-1][0] == "get_runs"
+    assert {file.name for file in Path(folder).glob("relnav.*")} == {"relnav.bit", "relnav.hwh"}
+
+
+@pytest.mark.parametrize(
+    ("found", "message"),
+    [
+        ({"progress": "40%"}, "the implementation failed"),
+        ({"slack": "-0.001"}, "timing is not met: worst negative slack -0.001 ns at 100 MHz"),
+        ({"slack": ""}, "timing is not met"),
+    ],
+)
+def test_no_bitstream_is_given_out(found: dict[str, str], message: str, tmp_path: Path) -> None:
+    """Of a run that failed, and of one that is too slow."""
+    calls, error = run("oltae", str(tmp_path / "project"), "none", "bitstream", **found)
+    assert message in error and calls[-1][0] == "get_runs"
+    assert not list((tmp_path / "project").glob("relnav.*"))
+
+
+@pytest.mark.parametrize("lost", ["system_wrapper.bit", "system.hwh"])
+def test_a_file_that_the_run_did_not_leave(lost: str, tmp_path: Path) -> None:
+    error = run("oltae", str(tmp_path / "project"), "none", "bitstream", lost=lost)[1]
+    assert f"{lost} in " in error and "not one" in error
 
 
 @pytest.mark.parametrize(

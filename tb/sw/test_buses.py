@@ -186,6 +186,10 @@ def test_words_of_a_file(tmp_path: Path) -> None:
                 memory.read(address)
             with pytest.raises(BackendError, match="no word at byte address"):
                 memory.write(address, 0)
+        for value in (1 << 33, 1 << 32, -1):
+            with pytest.raises(BackendError, match=f"^{value} at byte address 0x1c is no word of 32 bits$"):
+                memory.write(0x1C, value)
+        assert memory.read(0x1C) == 0x89ABCDEF
     assert len(memory.words) == 0
 
 

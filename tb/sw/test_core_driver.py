@@ -135,6 +135,13 @@ def test_a_core_that_hangs_is_given_up(kind: Kind) -> None:
     with pytest.raises(BackendError, match="no result after 25 looks at the core: its state is DONE"):
         driver.solve(kind.frame, polls=25)
     assert idled == 25
+    core.state = kind.map.State(1)  # where the rest of the frame is missing
+    with pytest.raises(BackendError, match=r"busy: its configuration is locked \(recover\(\) drops"):
+        driver.solve(kind.frame)
+    driver.recover()
+    assert (kind.map.CONTROL.ADDRESS, kind.map.CONTROL.encode(SOFT_RESET=1)) in core.written
+    core.state, core.lag = kind.map.State.IDLE, 0  # what the reset does
+    assert not driver.solve(kind.frame).failed
 
 
 def test_what_cannot_be_done_is_refused(kind: Kind) -> None:

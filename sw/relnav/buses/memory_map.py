@@ -65,7 +65,9 @@ class MemoryMap:
         return int(self.words[self._index(address)])
 
     def write(self, address: int, value: int) -> None:
-        """Write a word at a byte address."""
+        """Write a word at a byte address. Raises BackendError: no such word, or a value that is none."""
+        if not 0 <= value <= 0xFFFFFFFF:
+            raise BackendError(f"{value} at byte address 0x{address:x} is no word of 32 bits")
         self.words[self._index(address)] = value
 
     def _index(self, address: int) -> int:
@@ -139,7 +141,8 @@ class DevMemBus(MappedBus):
 class UioBus(MappedBus):
     """A core behind a UIO device: `uio_pdrv_genirq` on the core's node of the device tree.
 
-    sysfs: where the kernel says how many bytes the device has.
+    sysfs: where the kernel says how many bytes the device has. A file that stands for a device needs one of
+    its own: sysfs/NAME/maps/map0/size and offset, in hexadecimal, NAME being the file's.
     """
 
     def __init__(
@@ -151,7 +154,8 @@ class UioBus(MappedBus):
         sysfs: str | Path = SYSFS,
         patience: float = 0.01,
     ) -> None:
-        """index: which of the device's maps; patience: of `idle`, in seconds.
+        """index: which of the device's maps; patience: of `idle`, in seconds: a driver that waits POLLS
+        looks for a frame that never ends is back after POLLS times this.
 
         Raises BackendError: no such device or map, or one that is too small for a core.
         """

@@ -146,7 +146,8 @@ def _runner() -> Any:
         return importlib.import_module("sim.runner")
     except ImportError as error:
         raise BackendError(
-            f"the simulation needs more packages (make setup, or pip install 'relnav[sim]'): {error}"
+            "the simulation needs more packages (make setup, or pip install '.[sim]' in the checkout): "
+            f"{error}"
         ) from None
 
 
