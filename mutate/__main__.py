@@ -4,50 +4,80 @@
 from __future__ import annotations
 
 import argparse
+import math
 import multiprocessing
 import os
 import sys
 import time
-from collections.abc import Sequence
+from collections import Counter
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
 from functools import partial
 
 from mutate import report
-from mutate.benches import modules
+from mutate.benches import TB, first_tests, modules
 from mutate.campaign import Result, run_module
+from mutate.trial import processor
 
-MINUTES = 8.0
-"""That the sample of all modules is to take where the processors are free: ten with what is not foreseen."""
+MINUTES, END = 8.0, 9.5
+"""That the sample of all modules is to take where the processors are free; no mutant is begun after END."""
 LEAST, MOST = 2, 30
 """Mutants of a module in that sample."""
 UNKNOWN = (20.0, 2.0)
 """Seconds before the first mutant and for each, of a module that results.json doesn't have."""
+UNKNOWN_PROBE = 6.0
+"""Of a folder of tests that it doesn't have."""
 
 
-def sample(names: Sequence[str], rows: Sequence[report.Row], seconds: float) -> dict[str, int]:
-    """Mutants of each module in so many seconds of the processor, by the costs that `rows` tell.
+@dataclass(frozen=True)
+class Cost:
+    """What a module takes of the processor, in seconds."""
+
+    before: float
+    """Netlists, builds, tests with the right netlist, and its part of the probes that it shares."""
+    each: float
+    """A mutant."""
+
+
+def costs(names: Sequence[str], rows: Sequence[report.Row], probes: Mapping[str, float]) -> dict[str, Cost]:
+    """What the modules take, by what `rows` and `probes` (folder of tests -> seconds) tell."""
+    known = {row["module"]: row for row in rows}
+    folders = {name: [str(bench.relative_to(TB)) for bench in first_tests(name)] for name in names}
+    shared = Counter(bench for benches in folders.values() for bench in benches)
+    found = {}
+    for name in names:
+        before, each = UNKNOWN
+        if name in known:
+            before, each = known[name]["seconds_before"], max(0.1, known[name]["seconds_each"])
+        before += sum(probes.get(bench, UNKNOWN_PROBE) / shared[bench] for bench in folders[name])
+        found[name] = Cost(before, each)
+    return found
+
+
+def sample(found: Mapping[str, Cost], seconds: float) -> dict[str, int]:
+    """Mutants of each module in so many seconds of the processor, the dearest module first.
 
     Every module's mutants get the same time, with LEAST and MOST as bounds.
     """
-    costs = dict.fromkeys(names, UNKNOWN)
-    for row in rows:
-        if row["module"] in costs:
-            costs[row["module"]] = (row["seconds_before"], max(0.1, row["seconds_each"]))
 
     def counts(share: float) -> dict[str, int]:
-        return {name: min(MOST, max(LEAST, int(share / each))) for name, (_, each) in costs.items()}
+        return {name: min(MOST, max(LEAST, int(share / cost.each))) for name, cost in found.items()}
+
+    def whole(name: str, count: int) -> float:
+        return found[name].before + count * found[name].each
 
     best = counts(0.0)
-    for share in range(1, 2000):
-        found = counts(share / 2)
-        if sum(before + found[name] * each for name, (before, each) in costs.items()) > seconds:
+    for share in range(1, 4000):
+        more = counts(share / 4)
+        if sum(whole(name, count) for name, count in more.items()) > seconds:
             break
-        best = found
-    return best
+        best = more
+    return dict(sorted(best.items(), key=lambda one: -whole(*one)))
 
 
-def _try(job: tuple[str, int | None], deep: bool, forget: bool) -> Result:
+def _try(job: tuple[str, int | None], deep: bool, forget: bool, end: float) -> Result:
     os.nice(5)
-    return run_module(job[0], job[1], deep=deep, forget=forget)
+    return run_module(job[0], job[1], deep=deep, forget=forget, end=end)
 
 
 def main() -> int:
@@ -68,27 +98,40 @@ def main() -> int:
     if unknown:
         parser.error(f"no such module: {', '.join(sorted(unknown))}")
     counts: dict[str, int | None] = dict.fromkeys(names, 40)
+    start, end = time.monotonic(), math.inf
     if args.mutants:
         if args.mutants != "all" and not args.mutants.isdecimal():
             parser.error(f"MUTANTS: a number or all, not {args.mutants}")
         counts = dict.fromkeys(names, None if args.mutants == "all" else int(args.mutants))
     elif not args.module:
-        counts = dict(sample(names, report.load(), 60 * MINUTES * args.jobs))
-    start = time.monotonic()
+        known = costs(names, report.load(), report.load_probes())
+        counts = dict(sample(known, 60 * MINUTES * args.jobs))
+        end = start + 60 * END
+        whole = sum(known[name].before + (count or 0) * known[name].each for name, count in counts.items())
+        few = [name for name, count in counts.items() if count == LEAST]
+        print(f"{sum(filter(None, counts.values()))} mutants of {len(names)} modules", end=", ")
+        print(f"about {whole / 60:.1f} minutes of the processor in a fresh checkout", flush=True)
+        if few:
+            print(f"{LEAST} only, being dear: {', '.join(sorted(few))}", flush=True)
     results: list[Result] = []
     with multiprocessing.get_context("fork").Pool(args.jobs, maxtasksperchild=1) as pool:
         for one in pool.imap_unordered(
-            partial(_try, deep=not args.quick, forget=args.forget), counts.items(), 1
+            partial(_try, deep=not args.quick, forget=args.forget, end=end), counts.items(), 1
         ):
             results.append(one)
             killed = one.count("killed", "timeout")
             print(f"{one.module:<20} {killed:>4} of {one.judged:<4} {one.error[:90]}".rstrip(), flush=True)
             report.save([one])
+        pool.close()
+        pool.join()  # what they have taken is known then
     results.sort(key=lambda one: names.index(one.module))
     minutes = (time.monotonic() - start) / 60
     tried = sum(len(one.fates) for one in results)
     print(f"\n{report.table([report.row(one) for one in results])}")
-    print(f"{tried} mutants in {minutes:.1f} minutes, {tried / minutes:.0f} a minute")
+    print(f"{tried} mutants in {minutes:.1f} minutes, {processor() / 60:.1f} of the processor")
+    left = {one.module: one.left for one in results if one.left}
+    if left:
+        print(f"{sum(left.values())} mutants not begun within {END:g} minutes: {', '.join(sorted(left))}")
     bad = [one.module for one in results if report.below(one)]
     if bad:
         print(f"mutate: below {report.GOAL:g} % or not tried: {', '.join(bad)}", file=sys.stderr)

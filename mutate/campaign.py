@@ -6,17 +6,20 @@ from __future__ import annotations
 import fcntl
 import hashlib
 import json
+import math
 import re
+import time
 import tomllib
 from collections import Counter
-from collections.abc import Iterable, Mapping
+from collections.abc import Iterable, Iterator, Mapping, Sequence
+from contextlib import contextmanager
 from dataclasses import asdict, dataclass, field
 from pathlib import Path
 from typing import Any
 
 from mutate import netlist
 from mutate.benches import TB, core_tests, first_tests, modules
-from mutate.trial import attempt, processor, relative, warm
+from mutate.trial import Outcome, attempt, processor, relative, warm
 from sim.sources import ROOT, fingerprint
 
 BUILD = ROOT / "build" / "mutate"
@@ -24,7 +27,7 @@ _IMPORT = re.compile(r"^from (tb[\w.]*) import (\([^)]*\)|[^\n]*)", re.MULTILINE
 EQUIVALENTS = Path(__file__).parent / "equivalents.toml"
 SEED = 1
 PROVED = "proved by SAT: no output, next state or input of an instance changes, whatever the state"
-SLOWER, GRACE = 5.0, 20.0
+SLOWER, GRACE = 5.0, 8.0
 """A simulation may take so many times as long as with the right netlist, and so many seconds more, of the
 processor."""
 
@@ -58,7 +61,13 @@ class Result:
     fates: list[Fate] = field(default_factory=list)
     error: str = ""
     before: float = 0.0
-    """Seconds of the processor before the first mutant: netlists, builds, tests with the right netlist."""
+    """Seconds of the processor that are not a mutant's: netlists, builds, tests with the right netlist."""
+    probes: dict[str, float] = field(default_factory=dict)
+    """Folder of tests -> seconds of the processor that its probe took."""
+    unfit: dict[str, str] = field(default_factory=dict)
+    """Tests that don't pass with the right netlist (they reach into the module), with their last words."""
+    left: int = 0
+    """Mutants that were not begun before the run's end."""
 
     def count(self, *states: str) -> int:
         """How many mutants ended so."""
@@ -90,17 +99,24 @@ def equivalents(module: str) -> dict[str, str]:
 
 
 def run_module(
-    module: str, count: int | None, *, seed: int = SEED, deep: bool = True, forget: bool = False
+    module: str,
+    count: int | None,
+    *,
+    seed: int = SEED,
+    deep: bool = True,
+    forget: bool = False,
+    end: float = math.inf,
 ) -> Result:
     """Try `count` mutants of a module (None: all). Outcomes of the same sources and tests are kept.
 
     deep: survivors go on to the same tests on Verilator and then to those of the cores.
+    end: time.monotonic() after which no mutant is begun.
     """
     result = Result(module, fingerprint(module))
     folder = BUILD / module
     folder.mkdir(parents=True, exist_ok=True)
     try:
-        _run(result, folder, count, seed, deep, forget)
+        _run(result, folder, count, seed, deep, forget, end)
     except (RuntimeError, ValueError, LookupError, OSError) as error:
         result.error = f"{type(error).__name__}: {error}"[:500]
     (folder / "result.json").write_text(json.dumps(asdict(result), indent=1) + "\n")
@@ -151,6 +167,12 @@ def probe_folder(bench: Path) -> dict[str, Probe]:
         return _probe(bench, folder)
 
 
+def probe_seconds(bench: Path) -> float:
+    """What the kept probe of a folder of tb/ took, of the processor."""
+    known = json.loads((BUILD / "probes" / bench.name / "probe.json").read_text())
+    return float(known.get("seconds", 0.0))
+
+
 def _probe(bench: Path, folder: Path) -> dict[str, Probe]:
     file = folder / "probe.json"
 
@@ -159,6 +181,7 @@ def _probe(bench: Path, folder: Path) -> dict[str, Probe]:
         return " ".join([_contents(bench_files(bench)), *texts])
 
     known: dict[str, Any] = {"signature": "", "used": []}
+    start = processor()
     if file.is_file():
         known.update(json.loads(file.read_text()))
     if known["signature"] != signature(known["used"]):
@@ -177,6 +200,7 @@ def _probe(bench: Path, folder: Path) -> dict[str, Probe]:
         found = {test: (seen.durations[test], sorted(set(lines))) for test, lines in seen.reports.items()}
         used = sorted({line.split()[0] for _, lines in found.values() for line in lines})
         known = {"signature": signature(used), "used": used, "tests": found}
+        known["seconds"] = round(processor() - start, 1)
         file.write_text(json.dumps(known, indent=1) + "\n")
     return {
         test: Probe(seconds, frozenset(netlist.read_probe(line) for line in lines))
@@ -190,43 +214,73 @@ def _words(test: str) -> list[str]:
 
 
 class _Tests:
-    """Tests on the stand-in of one module. Each passes with the right netlist before it is given mutants."""
+    """Tests on the stand-ins of one module. Each passes with the right netlist before it is given mutants."""
 
-    def __init__(self, module: str, file: Path, folder: Path) -> None:
-        self.replaced = {module: file}
-        self.folder = folder
-        self.seconds: dict[str, float] = {}
-        self.before: list[float] = []
+    def __init__(
+        self,
+        module: str,
+        file: Path,
+        single: Sequence[Path],
+        uses: Mapping[str, Sequence[netlist.Values]],
+        folder: Path,
+    ) -> None:
+        self.module, self.file, self.single, self.uses, self.folder = module, file, single, uses, folder
+        self.seconds: dict[tuple[str, Path], float] = {}
+        self.unfit: dict[str, str] = {}
+        """Tests that don't pass with the right netlist, with their last words; without any: skipped here."""
+        self.before = 0.0
+        """Seconds of the processor that the right netlist took."""
         self.tried: Counter[str] = Counter()
         self.killed: Counter[str] = Counter()
         (folder / "right").mkdir(exist_ok=True)
 
     def order(self, tests: Iterable[str], before: Mapping[str, float]) -> list[str]:
         """Those first that kill most for their time."""
+        known = {test: seconds for (test, _), seconds in self.seconds.items()}
 
         def price(test: str) -> float:
             share = (self.killed[test] + 0.5) / (self.tried[test] + 1)
-            return self.seconds.get(test, before.get(test, 0.0)) / share
+            return known.get(test, before.get(test, 0.0)) / share
 
         return sorted(tests, key=price)
 
-    def judge(self, fate: Fate, tests: Iterable[str]) -> None:
+    def stand_in(self, test: str, mutant: netlist.Mutant) -> Path | None:
+        """The file for a test: that of its only set of parameters, if it passes with it, else that of all.
+
+        None where it passes with neither, or is skipped.
+        """
+        files = [self.file]
+        if list(self.uses.get(sibling(test), ())) == [mutant.values]:
+            files.insert(0, self.single[mutant.part])
+        for file in files:
+            if test in self.unfit:
+                continue
+            if (test, file) not in self.seconds:
+                right = self._attempt(test, file)
+                self.before += right.seconds
+                if right.state != "passed":
+                    if file == files[-1]:
+                        skipped = right.state == "none"
+                        self.unfit[test] = "" if skipped else f"{right.state} {right.text[-300:]}"
+                    continue
+                self.seconds[test, file] = right.durations[test]
+            return file
+        return None
+
+    def _attempt(self, test: str, file: Path, **options: Any) -> Outcome:
+        replaced = {self.module: file}
+        options = {"right": self.folder / "right", **options}
+        return attempt([test], self.folder, replaced, named=file != self.file, **options)
+
+    def judge(self, fate: Fate, mutant: netlist.Mutant, tests: Iterable[str]) -> None:
         """Give a mutant to one test after the other until one kills it."""
         for test in tests:
-            if test not in self.seconds:
-                right = attempt([test], self.folder, self.replaced, right=self.folder / "right")
-                if right.state != "passed":
-                    raise RuntimeError(
-                        f"the netlist without a mutation: {right.state} {right.test} {right.text[-300:]}"
-                    )
-                self.seconds[test] = right.durations[test]
-                self.before.append(right.seconds)
-            limit = GRACE + SLOWER * self.seconds[test]
+            file = self.stand_in(test, mutant)
+            if file is None:
+                continue
+            limit = GRACE + SLOWER * self.seconds[test, file]
             for right_results in (self.folder / "right", None):
-                outcome = attempt(
-                    [test], self.folder, self.replaced, number=fate.number, limit=limit, right=right_results
-                )
-                fate.seconds = round(fate.seconds + outcome.seconds, 2)
+                outcome = self._attempt(test, file, number=fate.number, limit=limit, right=right_results)
                 if outcome.state != "passed" or not outcome.short:
                     break
             if outcome.state == "busy":
@@ -239,10 +293,23 @@ class _Tests:
                 return
 
 
-def _run(result: Result, folder: Path, count: int | None, seed: int, deep: bool, forget: bool) -> None:
+def sibling(test: str) -> str:
+    """The same test on Icarus, which the probe has run."""
+    name, bracket, words = test.rpartition("[")
+    words = "-".join("icarus" if word == "verilator" else word for word in words.removesuffix("]").split("-"))
+    return f"{name}[{words}]" if bracket else test
+
+
+def _run(
+    result: Result, folder: Path, count: int | None, seed: int, deep: bool, forget: bool, end: float
+) -> None:
+    if time.monotonic() > end:
+        result.left = count or 1
+        return
     module = result.module
     benches = first_tests(module)
     probes = {test: probe for bench in benches for test, probe in probe_folder(bench).items()}
+    result.probes = {str(bench.relative_to(TB)): probe_seconds(bench) for bench in benches}
     uses = {
         test: [values for name, values in sorted(probe.uses) if name == module]
         for test, probe in probes.items()
@@ -250,12 +317,10 @@ def _run(result: Result, folder: Path, count: int | None, seed: int, deep: bool,
     used = list(dict.fromkeys(values for found in uses.values() for values in found))
     if not used:
         raise RuntimeError("no test that runs on Icarus has the module in it")
-    ids = warm([str(bench) for bench in benches], folder / "collect.log")
-
     start = processor()
-    file, mutants = netlist.make(module, used, count, seed, folder / "netlist")
-    result.before = processor() - start
-    tests = _Tests(module, file, folder)
+    ids = warm([str(bench) for bench in benches], folder / "collect.log")
+    file, single, mutants = netlist.make(module, used, count, seed, folder / "netlist")
+    tests = _Tests(module, file, single, uses, folder)
     before = {test: probe.seconds for test, probe in probes.items()}
     known = equivalents(module)
     memory = folder / "known.jsonl"
@@ -272,6 +337,17 @@ def _run(result: Result, folder: Path, count: int | None, seed: int, deep: bool,
         with memory.open("a") as out:  # of two lines about a mutant the last counts
             out.write(json.dumps({**asdict(fate), "signature": signature}) + "\n")
 
+    spent = 0.0
+
+    @contextmanager
+    def timed(fate: Fate) -> Iterator[None]:
+        nonlocal spent
+        then = processor() - tests.before
+        yield
+        used = processor() - tests.before - then
+        fate.seconds = round(fate.seconds + used, 2)
+        spent += used
+
     for mutant in mutants:
         fate = Fate(mutant.number, mutant.key, mutant.wire, mutant.source, "survived")
         if mutant.key in known:
@@ -279,23 +355,38 @@ def _run(result: Result, folder: Path, count: int | None, seed: int, deep: bool,
         elif mutant.key in kept:
             fate = kept[mutant.key]
             fate.number = mutant.number
+        elif time.monotonic() > end:
+            result.left += 1
+            continue
         else:
-            tests.judge(fate, tests.order((test for test in uses if mutant.values in uses[test]), before))
-            if fate.state == "survived" and netlist.proved_equivalent(module, mutant, folder / "netlist"):
-                fate.state, fate.reason = "equivalent", PROVED
+            having = [test for test in uses if mutant.values in uses[test]]
+            with timed(fate):
+                tests.judge(fate, mutant, tests.order(having, before))
+                if fate.state == "survived" and netlist.proved_equivalent(module, mutant, folder / "netlist"):
+                    fate.state, fate.reason = "equivalent", PROVED
+            if fate.state == "survived" and set(having) <= set(tests.unfit):
+                raise RuntimeError(f"no test passes with the netlist without a mutation: {tests.unfit}")
             keep(fate)
         result.fates.append(fate)
-    result.before += sum(tests.before)
     if deep and _alive(result):
         cores = warm([str(place) for place in core_tests(module)], folder / "collect.log")
         ports = [test for test in cores if "test_ports" in test]
+        by_number = {mutant.number: mutant for mutant in mutants}
         for chosen in (ids, ports):
             for fate in _alive(result):
-                tests.judge(fate, [test for test in chosen if "verilator" in _words(test)])
+                mutant = by_number[fate.number]
+                there = [test for test in chosen if "verilator" in _words(test)]
+                # where the probe doesn't know a test's sets of parameters, it may have this one
+                having = [test for test in there if mutant.values in uses.get(sibling(test), used)]
+                with timed(fate):
+                    tests.judge(fate, mutant, having)
         for fate in _alive(result):
             fate.deep = True
         for fate in result.fates:
-            keep(fate)
+            if fate.key not in known:
+                keep(fate)
+    result.before = processor() - start - spent
+    result.unfit = {test: words for test, words in tests.unfit.items() if words}
 
 
 def _alive(result: Result) -> list[Fate]:

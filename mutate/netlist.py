@@ -4,6 +4,9 @@
 The module keeps its header. Inside, each set of parameters that a test uses has a netlist of its own (Yosys:
 proc, constants folded, dead logic removed), into which `mutate -ctrl` has put every mutation with the number
 that switches it on; any other set of parameters has the original. So one build serves all mutants.
+
+For a test that uses one set only there is a second stand-in, which is that netlist itself: registers and
+instances stand where the source has them, so that a bench may look at them and flip them.
 """
 
 from __future__ import annotations
@@ -213,6 +216,12 @@ def _parse(line: str, number: int, values: Values, part: int) -> Mutant:
 
 
 _CELL = re.compile(r"^ *cell \S+ (\S+)$")
+_GIVES = re.compile(r"^( *connect \\Q )(.*)$")
+_PORT = re.compile(r"^    connect \\\S+ ")
+_WIRE = re.compile(r"^ *wire ((?:(?:width|offset) -?\d+ |signed |upto )*)(\\\S+)$")
+_INSTANCE = re.compile(
+    r"^  [A-Za-z_]\w* (?:#\(\n(?:    .*\n)*  \) )?\\([\w.]+)\.(\w+)  \(\n(?:    .*\n)*  \);\n", re.M
+)
 _CONSTANT = re.compile(r"^ *connect (\S+) (\d+)(?:'([01xz]+))?$")
 
 
@@ -226,6 +235,60 @@ def _constants(netlist: str) -> dict[tuple[str, str], str]:
             bits = f"{int(match[2]):032b}" if match[3] is None else match[3].rjust(int(match[2]), match[3][0])
             found[cell, match[1].removeprefix("\\")] = bits
     return found
+
+
+def _registers(netlist: str) -> dict[str, str]:
+    """Flip-flop -> the wire of the source's own that it is the whole of, in an RTLIL text."""
+    found, cell, clocked = {}, "", False
+    for line in netlist.splitlines():
+        if match := _CELL.match(line):
+            cell, clocked = match[1], line.split()[1].startswith("$dff")
+        elif clocked and (match := _GIVES.match(line)) and re.fullmatch(r"\\\S+", match[2]):
+            found[cell] = match[2]
+    return found
+
+
+def keep_registers(before: str, after: str) -> str:
+    """A module's RTLIL after `mutate`, each register with its name again; what reads it reads `<name>__read`.
+
+    A mutation of a flip-flop's output puts logic between it and the wire of its name; a bench that flips
+    the register by name would then find a net. Output ports keep their names.
+    """
+    registers = _registers(before)
+    ports = {line.split()[-1] for line in after.splitlines() if re.match(r" *wire .*(input|output) \d", line)}
+    moved, cell, lines = {}, "", []
+    for line in after.splitlines():
+        if match := _CELL.match(line):
+            cell = match[1]
+        name = registers.get(cell, "")
+        if name and name not in ports and (match := _GIVES.match(line)) and match[2] != name:
+            moved[name] = match[2]
+            line = match[1] + name
+            cell = ""
+        lines.append(line)
+    if not moved:
+        return after
+    token = re.compile("(" + "|".join(map(re.escape, moved)) + r")(?=[\s\]}]|$)")
+
+    def read(text: str) -> str:
+        return token.sub(lambda match: f"{match[1]}__read", text)
+
+    def connected(line: str) -> str:
+        port = _PORT.match(line)
+        if port:  # of a cell: the name of its port stays
+            return port[0] + read(line[port.end() :])
+        return read(line) if line.startswith("  connect ") else line
+
+    out = []
+    for line in lines:
+        wire, gives = _WIRE.match(line), _GIVES.match(line)
+        if wire and wire[2] in moved:
+            out += [line, f"  wire {wire[1]}{wire[2]}__read"]
+        else:
+            out.append(line if gives and gives[2] in moved else connected(line))
+    end = max(place for place, line in enumerate(out) if line == "end")
+    out[end:end] = [f"  connect {read(given)} {name}" for name, given in moved.items()]
+    return "\n".join(out) + "\n"
 
 
 def _possible(line: str, constants: Mapping[tuple[str, str], str]) -> bool:
@@ -248,11 +311,12 @@ def _possible(line: str, constants: Mapping[tuple[str, str], str]) -> bool:
 
 def make(
     module: str, used: Sequence[Values], count: int | None, seed: int, folder: Path
-) -> tuple[Path, list[Mutant]]:
-    """Write the stand-in of a module with `count` mutants (None: all there are), spread over the sets `used`.
+) -> tuple[Path, list[Path], list[Mutant]]:
+    """Write the stand-ins of a module with `count` mutants (None: all there are), spread over all of `used`.
 
     A smaller sample of the same seed is the beginning of a larger one, up to POOL mutants.
-    Returns the file and the mutants. Raises RuntimeError with Yosys' message.
+    Returns the file for any set, those of the single sets (`Mutant.part`) and the mutants.
+    Raises RuntimeError with Yosys' message.
     """
     folder.mkdir(parents=True, exist_ok=True)
     original = module_file(module)
@@ -273,6 +337,7 @@ def make(
             f"proc -norom {module}",
             *[f"opt_expr -mux_undef {module}", f"opt_clean {module}"] * 3,
             "write_rtlil netlist.il",
+            f"select {module}; write_rtlil -selected module.il; select -clear",
         ]
         # a quarter more, for those on the clock
         some = each if count is None else each + each // 4 + 20
@@ -283,8 +348,9 @@ def make(
     rounds = zip_longest(*([(place, line) for line in lines] for place, lines in enumerate(listed)))
     turns = [turn for turns in rounds for turn in turns if turn is not None][:count]
     mutants = [_parse(line, k, chosen[place], place) for k, (place, line) in enumerate(turns, 1)]
-    netlists = []
-    for place in range(len(chosen)):
+    netlists, single = [], []
+    for place, values in enumerate(chosen):
+        part = folder / f"part{place}"
         apply = ["read_rtlil netlist.il"]
         for mutant in mutants:
             if mutant.part == place:
@@ -292,15 +358,21 @@ def make(
                 apply.append(mutant.line.replace("mutate ", control, 1))
         if len(apply) == 1:  # nothing to mutate: an input that nothing reads
             apply.append(f"select -module {module}; add -input {CONTROL} {CONTROL_BITS}; select -clear")
-        apply += [f"select {module}", "write_verilog -noattr -selected netlist.v"]
-        _yosys(folder / f"part{place}", "apply", apply)
+        apply += [f"select {module}", "write_rtlil -selected mutated.il"]
+        _yosys(part, "apply", apply)
+        named = keep_registers((part / "module.il").read_text(), (part / "mutated.il").read_text())
+        (part / "mutated.il").write_text(named)
+        _yosys(part, "write", ["read_rtlil mutated.il", "write_verilog -noattr netlist.v"])
         # where two branches match, the simulators take the first: so must the proofs
-        netlist = (folder / f"part{place}" / "netlist.v").read_text().replace(PARALLEL, "")
-        (folder / f"part{place}" / "netlist.v").write_text(netlist)
+        netlist = (part / "netlist.v").read_text().replace(PARALLEL, "")
+        (part / "netlist.v").write_text(netlist)
         netlists.append(re.sub(rf"\bmodule {module}\b", f"module {module}__{place}", netlist, count=1))
+        single.append(part / "single" / original.name)
+        single[-1].parent.mkdir(exist_ok=True)
+        single[-1].write_text(_single(module, text, header, values, netlist))
     file = folder / original.name
     file.write_text(_stand_in(module, text, header, chosen, netlists))
-    return file, mutants
+    return file, single, mutants
 
 
 def proved_equivalent(module: str, mutant: Mutant, folder: Path, seconds: int = 20) -> bool:
@@ -359,6 +431,41 @@ def _proved(module: str, mutant: Mutant, folder: Path, seconds: int, flat: bool)
     return "SUCCESS!" in (part / f"{name}.log").read_text(errors="replace")
 
 
+_CHOICE = f"""  reg [{CONTROL_BITS - 1}:0] {CONTROL};
+  initial if (!$value$plusargs("{CONTROL}=%d", {CONTROL})) {CONTROL} = 0;
+"""
+
+
+def _single(module: str, text: str, header: Header, values: Values, netlist: str) -> str:
+    """The netlist of one set of parameters in the module's place; its parameters change nothing."""
+    with_defaults = read_header(with_values(text, header, dict(values)), module)
+    parameters = f" #({with_defaults.parameters_text})" if header.parameters else ""
+    ports = ", ".join(header.ports)
+    netlist = re.sub(
+        rf"\bmodule {module}\b[^;]*;\n", f"module {module}{parameters} ({ports});\n", netlist, count=1
+    )
+    netlist = re.sub(
+        rf"  input \[[0-9:]+\] {CONTROL};\n  wire \[[0-9:]+\] {CONTROL};\n", _CHOICE, netlist, count=1
+    )
+    return f"{text[: header.start]}{_scopes(netlist)}\n`resetall\n"
+
+
+def _scopes(netlist: str) -> str:
+    r"""Instances of generated blocks (\block.name, but for those with an index) in blocks of that name."""
+    blocks: dict[str, list[str]] = {}
+    for match in _INSTANCE.finditer(netlist):
+        path, name = match[1], match[2]
+        blocks.setdefault(path, []).append(match[0].replace(f"\\{path}.{name} ", name, 1))
+    netlist = _INSTANCE.sub("", netlist)
+    found = []
+    for path, instances in sorted(blocks.items()):
+        names = path.split(".")
+        begins = "".join(f"if (1) begin : {name}\n" for name in names)
+        found.append(f"  generate {begins}{''.join(instances)}{'end ' * len(names)}endgenerate\n")
+    end = netlist.rindex("endmodule")
+    return netlist[:end] + "".join(found) + netlist[end:]
+
+
 def _stand_in(
     module: str, text: str, header: Header, chosen: Sequence[Values], netlists: Sequence[str]
 ) -> str:
@@ -379,9 +486,7 @@ def _stand_in(
     )
     return (
         f"{text[: header.start]}module {module}{parameters} ({ports_text});\n"
-        f"  reg [{CONTROL_BITS - 1}:0] {CONTROL};\n"
-        f'  initial if (!$value$plusargs("{CONTROL}=%d", {CONTROL})) {CONTROL} = 0;\n'
-        f"  generate {''.join(branches)}begin : g_original\n"
+        f"{_CHOICE}  generate {''.join(branches)}begin : g_original\n"
         f"    {module}__original{passed} u_original ({ports});\n  end endgenerate\n"
         f"endmodule\n`resetall\n{'`resetall'.join(netlists)}\n`resetall\n{renamed}"
     )

@@ -11,6 +11,7 @@ from typing import Any
 
 from mutate.benches import CORES, first_tests, modules
 from mutate.campaign import PROVED, SEED, Result
+from mutate.trial import relative
 from sim.sources import fingerprint
 
 HERE = Path(__file__).parent
@@ -42,6 +43,7 @@ def row(one: Result) -> Row:
         "seconds_before": round(one.before, 1),
         "seconds_each": round(sum(fate.seconds for fate in tried) / max(1, len(tried)), 2),
         "tests": dict(killers.most_common()),
+        "unfit": sorted(map(relative, one.unfit)),
         "open": [
             {"key": fate.key, "wire": fate.wire, "source": fate.source}
             for fate in one.fates
@@ -66,19 +68,31 @@ def _dated(one: Row) -> Row:
     return {**one, "current": one["source"] == fingerprint(one["module"])}
 
 
+def load_probes() -> dict[str, float]:
+    """Folder of tests -> seconds of the processor that its probe takes, as far as known."""
+    found = json.loads(RESULTS.read_text()) if RESULTS.is_file() else {}
+    return dict(found.get("probes", {}))
+
+
 def save(results: Sequence[Result]) -> None:
     """Put a run's rows in, except where the row there is of a larger sample of the same text."""
+    probes = load_probes()
+    for result in results:
+        probes.update({bench: seconds for bench, seconds in result.probes.items() if seconds})
     rows = {one["module"]: one for one in load()}
     for result in results:
         new, old = _dated(row(result)), rows.get(result.module)
         if result.error or nothing(result) or (old and old["current"] and _larger(old, new)):
             continue
+        if old and old["current"]:  # what found its builds there took less
+            new["seconds_before"] = max(new["seconds_before"], old["seconds_before"])
         rows[result.module] = new
     found = [rows[name] for name in modules() if name in rows]
     TABLE.write_text(table(found, [name for name in modules() if name not in rows]))
     for one in found:
         one.pop("current", None)
-    RESULTS.write_text(json.dumps({"seed": SEED, "goal": GOAL, "modules": found}, indent=1) + "\n")
+    whole = {"seed": SEED, "goal": GOAL, "probes": dict(sorted(probes.items())), "modules": found}
+    RESULTS.write_text(json.dumps(whole, indent=1) + "\n")
 
 
 def _larger(old: Row, new: Row) -> bool:
@@ -90,9 +104,14 @@ def nothing(one: Result) -> bool:
     return len(one.fates) == one.count("invalid")
 
 
+def late(one: Result) -> bool:
+    """Whether the run's end came before the module's first mutant."""
+    return not one.fates and one.left > 0
+
+
 def below(one: Result) -> bool:
     """Whether a module fails `make mutate`."""
-    return one.percent < GOAL or bool(one.error) or nothing(one)
+    return one.percent < GOAL or bool(one.error) or (nothing(one) and not late(one))
 
 
 def _line(words: Sequence[object]) -> str:
@@ -129,4 +148,7 @@ def table(rows: Sequence[Row], untried: Sequence[str] = ()) -> str:
     if named:
         proved = sum(one["proved"] for one in rows)
         parts += [f"## Equivalent ({proved} more are proved by SAT)", "\n".join(named)]
+    unfit = [f"* {one['module']}: `{test}`" for one in rows for test in one.get("unfit", [])]
+    if unfit:
+        parts += ["## Tests that look inside, and cannot be run on the netlist", "\n".join(unfit)]
     return "\n\n".join(parts) + "\n"

@@ -36,7 +36,7 @@ CLOCK = Path(__file__).parent / "clock.v"
 PLAYED = ("replay_bench", "gram_array_bench", "gram_ring_bench")
 """Benches that give a clock, and reset if there is one, until `done`; with FLIPS in the environment, more."""
 WRITTEN = ("+results=", "+response=")
-BUSY = 20.0
+BUSY = 60.0
 """Seconds of the clock on the wall that one of the processor may take."""
 DEAD = 120.0
 """Seconds that a process may need beyond its simulations' limit."""
@@ -226,6 +226,7 @@ def _prepare(number: int, limit: float, watch: _Watch, right: Path | None) -> No
             reader = _Reader(written[0], kept)
             reader.start()
         start, found = processor(), None
+        os.environ["COCOTB_MAX_FAILURES"] = "1"  # the runner puts the environment back
         resource.setrlimit(resource.RLIMIT_CPU, (math.ceil(start + limit), resource.RLIM_INFINITY))
         try:
             if alone:
@@ -263,12 +264,14 @@ def attempt(
     whole: float | None = None,
     report: Path | None = None,
     right: Path | None = None,
+    named: bool = False,
 ) -> Outcome:
     """Run tests (ids of pytest) with files in some modules' places, up to the first failure.
 
     folder: for the log, builds and temporary files. number: the mutant. limit: seconds of the processor
     for each simulation. whole: for all of them (default: limit). report: a file that a probe writes.
     right: folder of what simulations write, filled with number 0, compared with any other.
+    named: the files have the registers of the modules in their places (tb/common/netlist.py).
     """
     folder.mkdir(parents=True, exist_ok=True)
     answer = folder / "outcome.json"
@@ -283,6 +286,8 @@ def attempt(
             os.setpgid(0, 0)  # not a session: of its own it would lose the caller's low priority
             os.environ["RELNAV_REPLACE"] = " ".join(f"{module}={file}" for module, file in replaced.items())
             os.environ["RELNAV_BUILD"] = str(folder)
+            if named:
+                os.environ["RELNAV_NAMED"] = "1"
             resource.setrlimit(resource.RLIMIT_CORE, (0, 0))
             watch = _Watch(report)
             _prepare(number, limit, watch, right)

@@ -5,4 +5,4 @@ from __future__ import annotations
 
 import os
 
-REPLACED = "RELNAV_REPLACE" in os.environ
+REPLACED = "RELNAV_REPLACE" in os.environ and "RELNAV_NAMED" not in os.environ

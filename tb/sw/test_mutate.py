@@ -10,12 +10,12 @@ from pathlib import Path
 import pytest
 
 from mutate import netlist, report
-from mutate.__main__ import LEAST, MOST, UNKNOWN, sample
+from mutate.__main__ import LEAST, MOST, UNKNOWN, UNKNOWN_PROBE, Cost, costs, sample
 from mutate.benches import TB, core_tests, first_tests, modules
-from mutate.campaign import PROVED, Fate, Result, bench_files, fingerprint
+from mutate.campaign import PROVED, Fate, Result, bench_files
 from mutate.trial import _Reader
 from sim.runner import missing
-from sim.sources import ROOT, RTL, module_file, reachable, sources
+from sim.sources import ROOT, RTL, fingerprint, module_file, reachable, sources
 
 VALUES = (("WIDTH", "5"),)
 
@@ -49,7 +49,7 @@ def test_probe_lines() -> None:
 
 def test_stand_in_and_proof(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     """It compiles in the module's place; only what changes nothing is proved equivalent."""
-    file, mutants = netlist.make("mux4", [VALUES], 20, 1, tmp_path)
+    file, _, mutants = netlist.make("mux4", [VALUES], 20, 1, tmp_path)
     assert len({mutant.key for mutant in mutants}) == len(mutants) == 20
     assert not any(netlist.proved_equivalent("mux4", mutant, tmp_path) for mutant in mutants[:3])
     monkeypatch.setenv("RELNAV_REPLACE", f"mux4={file}")
@@ -62,10 +62,50 @@ def test_stand_in_and_proof(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> 
         assert done.returncode == 0, done.stderr
     monkeypatch.delenv("RELNAV_REPLACE")
     # mux3_invert takes select 2 and 3 for the same: proved with the instances taken in
-    _, mutants = netlist.make("aligner", [()], 30, 1, tmp_path / "aligner")
+    _, _, mutants = netlist.make("aligner", [()], 30, 1, tmp_path / "aligner")
     same = [one for one in mutants if one.key == "cnot1 sixteens select[0]/1"]
     assert [netlist.proved_equivalent("aligner", one, tmp_path / "aligner") for one in same] == [True]
     assert (RTL / "arith" / "mux4.v").read_text().count("module") < file.read_text().count("module")
+
+
+def test_registers_keep_their_names(tmp_path: Path) -> None:
+    """In the stand-in of one set of parameters, though flip-flops' outputs are mutated."""
+    values = (("WIDTH", "7"), ("RESET", "8'h01"))
+    _, (single,), mutants = netlist.make("voted_register", [values], 40, 1, tmp_path)
+    assert any(mutant.wire.startswith("first[") and mutant.port == "Q" for mutant in mutants)
+    text = single.read_text()
+    assert all(f"  reg [6:0] {name};\n" in text for name in ("first", "second", "third"))
+    assert "wire [6:0] first__read;" in text and "first <= " in text
+    if missing("icarus") is None:
+        command = ["iverilog", "-g2005", "-tnull", "-s", "voted_register", str(single)]
+        done = subprocess.run(command, capture_output=True, check=False)
+        assert done.returncode == 0, done.stderr
+
+
+def test_readers_of_a_mutated_register() -> None:
+    """They get the mutation; a port of the register's name, and the register, keep it."""
+    cells = (
+        "  cell $dff $f\n    connect \\Q {}\n  end\n  cell \\sub \\u\n    connect \\a \\a [0]\n  end\n{}end\n"
+    )
+    head = "module \\m\n  wire width 2 signed \\a\n"
+    before = head + cells.format("\\a", "")
+    after = head + cells.format("{ $n \\a [0] }", "  connect \\a [1] $mux\n")
+    assert netlist.keep_registers(before, after) == (
+        "module \\m\n  wire width 2 signed \\a\n  wire width 2 signed \\a__read\n"
+        + cells.format("\\a", "  connect \\a__read [1] $mux\n  connect { $n \\a__read [0] } \\a\n").replace(
+            "\\a [0]", "\\a__read [0]"
+        )
+    )
+    assert netlist.keep_registers(before, before) == before
+
+
+def test_instances_stand_in_their_blocks() -> None:
+    cell = "  twin_register #(\n    .WIDTH(32'd3)\n  ) {}  (\n    .q({{ a, b }})\n  );\n"
+    inside = [cell.format(name) for name in ("\\g_a.one", "\\g_a.two", "\\g_a.g_b.three", "four")]
+    text = netlist._scopes("module m;\n" + "".join(inside) + "endmodule\n")
+    assert "generate if (1) begin : g_a\n  twin_register #(" in text and "\\" not in text
+    assert text.count("begin : g_a\n") == 2 and text.count("begin : g_b\n") == 1
+    assert text.index("four") < text.index("generate") and text.endswith("endgenerate\nendmodule\n")
 
 
 @pytest.mark.skipif(missing("icarus") is not None, reason=str(missing("icarus")))
@@ -86,24 +126,31 @@ print(table([row(result)]))
     assert "| fixed_output | 3 | 3 | 0 | 0 | 0 | 0 | 0 | 100.0 |" in done.stdout, done.stdout + done.stderr
 
 
+def test_costs() -> None:
+    """A probe counts once, in parts for the modules that share it; what isn't known counts too."""
+    rows: list[report.Row] = [{"module": "mac_cell", "seconds_before": 5.0, "seconds_each": 0.5}]
+    probes = {"gram/gram_array": 8.0, "gram/gram_ring": 2.0}
+    found = costs(["mac_cell", "gram_lane", "mux4"], rows, probes)
+    assert found["mac_cell"] == Cost(5.0 + 4.0 + 1.0, 0.5)
+    assert found["gram_lane"] == Cost(UNKNOWN[0] + 5.0, UNKNOWN[1])
+    assert found["mux4"] == Cost(UNKNOWN[0] + UNKNOWN_PROBE, UNKNOWN[1])
+
+
 def test_sample() -> None:
     """Each module's mutants get the same time, within bounds; what is left of a tight budget is the least."""
-    rows: list[report.Row] = [
-        {"module": "mux4", "seconds_before": 5.0, "seconds_each": 0.5},
-        {"module": "gram_array", "seconds_before": 50.0, "seconds_each": 10.0},
-    ]
-    names = ["mux4", "gram_array"]
-    assert sample(names, rows, 1.0) == {"mux4": LEAST, "gram_array": LEAST}
-    assert sample(names, rows, 10_000.0) == {"mux4": MOST, "gram_array": MOST}
-    counts = sample(names, rows, 120.0)
+    known = {"mux4": Cost(5.0, 0.5), "gram_array": Cost(50.0, 10.0)}
+    assert sample(known, 1.0) == {"mux4": LEAST, "gram_array": LEAST}
+    assert sample(known, 10_000.0) == {"mux4": MOST, "gram_array": MOST}
+    counts = sample(known, 120.0)
     assert LEAST < counts["gram_array"] < counts["mux4"]
-    assert sum(row["seconds_before"] + counts[row["module"]] * row["seconds_each"] for row in rows) <= 120
-    assert sample(["fixed_output"], rows, UNKNOWN[0] + 10 * UNKNOWN[1])["fixed_output"] == 10
+    assert sum(cost.before + counts[name] * cost.each for name, cost in known.items()) <= 120
+    assert list(counts) == ["gram_array", "mux4"]
+    assert sample({"fixed_output": Cost(*UNKNOWN)}, UNKNOWN[0] + 10 * UNKNOWN[1])["fixed_output"] == 10
 
 
 def test_a_small_sample_is_the_beginning_of_a_larger_one(tmp_path: Path) -> None:
     few, more = (
-        [one.key for one in netlist.make("mux4", [VALUES, (("WIDTH", "7"),)], n, 1, tmp_path)[1]]
+        [one.key for one in netlist.make("mux4", [VALUES, (("WIDTH", "7"),)], n, 1, tmp_path)[2]]
         for n in (5, 25)
     )
     assert few == more[:5]

@@ -181,6 +181,19 @@ async def interrupt(dut: Any) -> None:
         await bench.write(MAP.IRQ_ENABLE.ADDRESS, 0)
         assert await level() == 0 and await bench.read(MAP.IRQ_STATUS.ADDRESS) == bit
         await bench.clear()
+    for pending in range(4):  # what is enabled stays, whatever is pending
+        if pending & 1:
+            await bench.pulse("frame_complete")
+        if pending & 2:
+            await bench.pulse("flag_set", 0x10)
+        for enabled in range(4):
+            await bench.write(MAP.IRQ_ENABLE.ADDRESS, enabled)
+            for _ in range(2):
+                assert await level() == int(enabled & pending != 0)
+                assert await bench.read(MAP.IRQ_ENABLE.ADDRESS) == enabled
+                assert await bench.read(MAP.IRQ_STATUS.ADDRESS) == pending
+                await clocks.tick(dut)
+        await bench.clear()
     await bench.write(MAP.IRQ_ENABLE.ADDRESS, 3)
     dut.frame_complete.value = 1
     await bench.write(MAP.IRQ_STATUS.ADDRESS, 1)

@@ -56,13 +56,14 @@ async def majority(dut: Any) -> None:
 
 @cocotb.test(timeout_time=1, timeout_unit="ms")
 async def reset(dut: Any) -> None:
-    """Reset goes before d."""
+    """Reset goes before d, in every copy."""
     await clocks.start(dut, d=0)
     await clocks.tick(dut)
     assert int(dut.q.value) == 0
     dut.rst.value = 1
     await clocks.tick(dut)
     assert int(dut.q.value) == RESET
+    assert [int(each.value) for each in (dut.first, dut.second, dut.third)] == [RESET] * 3
     dut.rst.value = 0
     await clocks.tick(dut)
     assert int(dut.q.value) == 0
