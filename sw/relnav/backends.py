@@ -53,15 +53,11 @@ def solve(
 
 
 def check_backend(backend: str, rtl_dir: str | Path | None) -> None:
-    """Raises BackendError for an unknown backend, or other RTL for one that simulates none."""
+    """Raises BackendError for an unknown backend, and for RTL that is not there or that it can't simulate."""
     if backend not in BACKENDS:
         raise BackendError(f"no backend {backend!r}: one of {', '.join(BACKENDS)}")
     if rtl_dir is not None and backend not in SIMULATORS:
         raise BackendError(f"other RTL needs a simulator: backend {' or '.join(SIMULATORS)}, not {backend}")
-
-
-def check_rtl(rtl_dir: str | Path | None) -> None:
-    """Raises BackendError where there is no such folder."""
     if rtl_dir is not None and not Path(rtl_dir).is_dir():
         raise BackendError(f"{rtl_dir}: no such RTL directory")
 
@@ -90,7 +86,6 @@ def _simulated(
     config: CoreConfig,
     waves: Path | None,
 ) -> list[RawResult]:
-    check_rtl(rtl_dir)
     run_frames = part("rtlsim").run_frames
     raws: list[RawResult] = run_frames(frames, simulator, rtl_dir=rtl_dir, config=config, waves=waves)
     if len(raws) != len(frames):

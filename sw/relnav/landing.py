@@ -9,7 +9,7 @@ from pathlib import Path
 
 from tqdm import tqdm
 
-from .backends import SIMULATORS, check_backend, check_rtl, installed_simulator, solve
+from .backends import SIMULATORS, check_backend, installed_simulator, solve
 from .checkout import ROOT, build_folder
 from .comparison import Solutions, exact_poses, paper_runs
 from .errors import BackendError
@@ -63,7 +63,6 @@ def run_landing(
     backend = backend or installed_simulator()
     solver = solver or _solve
     check_backend(backend, rtl)
-    check_rtl(rtl)
     refuse_file(out)
     simulator = Simulator(load_terrain(terrain), frames, images, seed)
     make_folder(out)  # before the flight, not after it

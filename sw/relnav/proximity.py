@@ -12,7 +12,7 @@ import numpy as np
 from tqdm import tqdm
 
 from .attitude import FloatArray
-from .backends import check_backend, check_rtl, installed_simulator, solve
+from .backends import check_backend, installed_simulator, solve
 from .checkout import ROOT
 from .errors import BackendError
 from .frames import Frame
@@ -101,7 +101,6 @@ def run_proximity(
     backend = backend or installed_simulator()
     solvers = solvers or Backends()
     check_backend(backend, rtl)
-    check_rtl(rtl)
     refuse_file(out)
     make_folder(out)
     kinds = list(dict.fromkeys([backend, "fixed", "double"]))

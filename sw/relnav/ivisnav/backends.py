@@ -8,7 +8,7 @@ from collections.abc import Sequence
 from pathlib import Path
 from typing import Any
 
-from ..backends import check_backend, check_rtl, part
+from ..backends import check_backend, part
 from ..errors import BackendError, InputError
 from ..model.raw import variance_word
 from . import golden
@@ -81,7 +81,6 @@ def _simulated(
     rtl_dir: str | Path | None,
     waves: Path | None,
 ) -> list[RawRates]:
-    check_rtl(rtl_dir)
     run: Any = part("rtlsim").run_rate_frames
     raws: list[RawRates] = run(rows, simulator, variance=variance, rtl_dir=rtl_dir, waves=waves)
     if len(raws) != len(rows):
